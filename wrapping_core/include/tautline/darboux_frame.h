@@ -1,0 +1,31 @@
+#pragma once
+#include "tautline/types.h"
+
+namespace tautline {
+
+/** Darboux trihedron {t, N, B} of a unit-speed geodesic at a surface point (thesis Sec. 3.4), with the
+second fundamental form in the basis {t, B}. N points outward and B = t x N. Signs (thesis-wide):
+
+    t' = kappaN N,   N' = -kappaN t + tauG B,   B' = -tauG N      along the geodesic,
+
+so that kappaN < 0 where a string presses on a convex surface. All vectors in one frame, which the
+owner names (S in surfaces and geodesics, G in path segments). Curvatures in 1/m. */
+struct DarbouxFrame {
+    Vec3 x = Vec3::Constant(kNaN);  ///< the point
+    Vec3 t = Vec3::Constant(kNaN);  ///< unit tangent
+    Vec3 N = Vec3::Constant(kNaN);  ///< unit outward normal
+    Vec3 B = Vec3::Constant(kNaN);  ///< unit binormal t x N
+    double kappaN = kNaN;           ///< normal curvature along t: -t . dN(t)
+    double tauG = kNaN;             ///< geodesic torsion along t: B . dN(t)
+    double kappaB = kNaN;           ///< normal curvature along B: -B . dN(B)
+
+    /** Gaussian curvature [1/m^2] (determinant of the second fundamental form). */
+    double calcGaussianCurvature() const { return kappaN * kappaB - tauG * tauG; }
+
+    /** The same frame seen from the frame in which its own basis has pose X. */
+    DarbouxFrame reexpressedBy(const Pose& X) const {
+        return {X * x, X.R * t, X.R * N, X.R * B, kappaN, tauG, kappaB};
+    }
+};
+
+}  // namespace tautline

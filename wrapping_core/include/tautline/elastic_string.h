@@ -1,0 +1,54 @@
+#pragma once
+/** A coarse elastic string laid along a path and relaxed with one-sided contact: finds the contact set and
+the basin of the minimum where Newton-like steps from a poor guess do not. Milliseconds, not microseconds. */
+#include <vector>
+
+#include "tautline/path_problem.h"
+#include "tautline/path_solution.h"
+
+namespace tautline {
+
+class ElasticString {
+public:
+    /** Lays the string from origin to insertion along its guides: the arcs of `previous` that touch (in the
+    poses of today), else the hints of the problem; obstacles without either guide nothing. */
+    void lay(const PathProblem& problem, const PathPose& pose, const PathSolution* previous);
+
+    /** Relaxes by projected successive over-relaxation until nodes move less than `tolerance` of their
+    spacing per sweep, or `maxSweeps`. @param fineness   spacing of nodes relative to the default */
+    void relax(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance, int maxSweeps);
+
+    /** Contact set, geodesic starts (touched) and switched-off obstacles as the string shows them. */
+    void extractContacts(const PathProblem& problem, const PathPose& pose, std::vector<ObstacleContact>& contacts) const;
+
+    const std::vector<Vec3>& getNodes() const { return m_nodes; }
+    int getNumSweeps() const { return m_numSweeps; }
+
+private:
+    /** An obstacle's hold on the string; node indices, -1 where it does not touch. */
+    struct Hold {
+        int element = -1;
+        Pose X_GS;
+        int first = -1, last = -1;          ///< contact nodes of this sweep
+        int from = -1, to = -1;             ///< fixed nodes that bound its strand
+        int portionBegin = 0, portionEnd = 0;  ///< nodes on which it may act, inclusive
+        bool isSwitchedOff = false;
+        bool touches() const { return first >= 0; }
+    };
+
+    void remesh(const PathProblem& problem, double fineness);
+    void updatePortions(const PathProblem& problem);
+    double sweep(const PathProblem& problem, double relaxation, bool isForward);
+    double calcRoom(const PathProblem& problem, const Vec3& x, int node) const;
+    void pushOut(const PathProblem& problem, int node, std::vector<Hold>& holds, double& room);
+
+    std::vector<Vec3> m_nodes;
+    std::vector<char> m_isFixed;
+    std::vector<double> m_stiffness;  ///< of edge k between nodes k and k + 1
+    std::vector<double> m_room;       ///< per node: size of the nearest obstacle plus distance to it [m]
+    std::vector<Hold> m_holds;
+    double m_extent = 0;  ///< length of the string when laid [m]
+    int m_numSweeps = 0;
+};
+
+}  // namespace tautline

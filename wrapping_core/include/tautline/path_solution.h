@@ -1,0 +1,54 @@
+#pragma once
+#include <vector>
+
+#include "tautline/surface.h"
+
+namespace tautline {
+
+/** How a solve ended. */
+enum class PathStatus {
+    Solved,        ///< max |eps| <= tolerance and all conditions of PathVerification hold
+    NotMinimum,    ///< max |eps| <= tolerance, but the path is not a local minimum (pressure, tangent, conjugate point)
+    LeftDomain,    ///< a contact lies outside its surface's domain
+    EndInside,     ///< a fixed point lies below an obstacle's surface by more than d_tol; that obstacle is switched off
+    NotConverged,  ///< max |eps| > tolerance after the allowed iterations; the best path met is returned
+};
+
+/** A short word for tables and files: "solved", "not_minimum", ... */
+const char* getName(PathStatus status);
+
+/** What one obstacle does in a solved path. */
+struct ObstacleContact {
+    bool isTouched = false;
+    bool isSwitchedOff = false;  ///< an end of its segment is inside it
+    GeodesicStart start;         ///< in S; of the arc, or of the last arc while lifted
+    Geodesic geodesic;           ///< in S; only while touched
+    LineClearance clearance;     ///< in S; of the straight line that passes the surface while lifted
+    int segment = -1;            ///< while lifted: index of that straight segment
+};
+
+/** A straight segment between fixed points and arcs; A and B in ground. */
+struct StraightSegment {
+    int fromElement = -1, toElement = -1;
+    Vec3 A = Vec3::Constant(kNaN), B = Vec3::Constant(kNaN);
+    Vec3 e = Vec3::Constant(kNaN);  ///< unit vector from A to B
+    double length = kNaN;           ///< [m]
+};
+
+/** A path: always finite and drawable, whatever the status. `contacts` has one entry per element of the
+problem (entries of points are unused) and is what a later solve starts from. */
+struct PathSolution {
+    PathStatus status = PathStatus::NotConverged;
+    double length = kNaN;     ///< straight segments and arcs [m]
+    double pathError = kNaN;  ///< max |eps| (thesis Eqn. 4.3), dimensionless
+    int iterations = 0;       ///< Newton iterations of this solve
+    int shots = 0;            ///< geodesics shot in this solve
+    bool wasCold = false;     ///< the start was found anew (elastic string), not continued
+    std::vector<ObstacleContact> contacts;
+    std::vector<StraightSegment> segments;
+    std::vector<double> errorHistory;  ///< max |eps| before each Newton iteration of the last run
+
+    bool isEmpty() const { return contacts.empty(); }
+};
+
+}  // namespace tautline

@@ -1,0 +1,71 @@
+#pragma once
+#include "tautline/elastic_string.h"
+#include "tautline/path_error.h"
+#include "tautline/path_problem.h"
+#include "tautline/path_solution.h"
+
+namespace tautline {
+
+/** d_tol of thesis Sec. 6.2, normalized by max(|kappa_n|, 1/size): the one constant for switching contact,
+verifying and flagging it. Tiny, since a penetration h at touchdown makes the rate jump with h. */
+inline constexpr double kContactTolerance = -1e-10;
+
+struct PathSolverOptions {
+    double pathErrorTolerance = 1e-11;  ///< on max |eps|; what Newton leaves is its square
+    int maxIterations = 40;             ///< Newton iterations for one contact set
+    bool allowsColdStart = true;        ///< false: report NotConverged where the start given does not lead on
+    GeodesicOptions geodesics;
+
+    /** InvalidInput naming the option that is out of its range. */
+    void validate() const;
+};
+
+/** Finds shortest paths. Holds the workspace of a solve: one per thread; the answer never depends on what
+it solved before. No allocation once it has solved a path of the same size. */
+class PathSolver {
+public:
+    explicit PathSolver(const PathSolverOptions& options = {});
+    const PathSolverOptions& getOptions() const { return m_options; }
+
+    /** Solves for path and contact set. An empty `path` is a cold start from the problem's hints; otherwise
+    it is continued from, and found anew along it where that fails.
+    @param pose   one pose per element; InvalidInput if their number differs. Never throws for finite poses
+    @param path   in: start; out: the answer, finite and drawable whatever its status */
+    void solve(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+
+    /** Solves with the contact set of `path` as it is, so that the equations stay smooth past lift-off
+    (arcs of negative length) and touchdown (clearances below zero) while an integrator locates the event.
+    `path` must come from an earlier solve. */
+    void solveKeepingContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+
+private:
+    enum class Outcome { Converged, Failed };
+
+    bool findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    bool findColdPath(const PathProblem& problem, const PathPose& pose, const PathSolution* previous, PathSolution& path);
+    bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    Outcome iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    bool calcNewtonStep();
+    double calcStepFraction(const PathProblem& problem) const;
+    void applyStep(const PathProblem& problem, double fraction);
+    bool switchContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    void updateClearances(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    void storeChain(PathSolution& path) const;
+    void finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
+
+    PathSolverOptions m_options;
+    ElasticString m_string;
+    Chain m_chain, m_trial;
+    BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
+    std::vector<double> m_eps, m_trialEps, m_step;
+    PathSolution m_previous;
+};
+
+/** Puts a lifted obstacle in contact where its clearance was measured: the start of an arc for Newton's
+method, of length zero where the line just touches. @param e_S   direction of the line, in S */
+void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& contact);
+
+/** One-off: a cold start from the problem's hints. */
+PathSolution solvePath(const PathProblem& problem, const PathPose& pose, const PathSolverOptions& options = {});
+
+}  // namespace tautline

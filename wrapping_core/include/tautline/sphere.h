@@ -1,0 +1,31 @@
+#pragma once
+#include "tautline/implicit_surface.h"
+
+namespace tautline {
+
+/** Sphere about the origin of S. Geodesics are great circles, in closed form. */
+class Sphere final : public ImplicitShape<Sphere> {
+public:
+    /** @param radius   [m], positive; InvalidInput otherwise */
+    explicit Sphere(double radius);
+
+    double getRadius() const { return m_radius; }
+    double getSize() const override { return m_radius; }
+    std::string getDescription() const override;
+    bool isConvex() const override { return true; }
+    double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
+
+    /** f = (|p|^2 - r^2)/(2r), so that the gradient is unit on the surface. */
+    ImplicitValue calcImplicit(const Vec3& p) const {
+        return {(p.squaredNorm() - m_radius * m_radius) / (2 * m_radius), p / m_radius, Mat3::Identity() / m_radius};
+    }
+    double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
+    SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
+    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
+    void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const override;
+
+private:
+    double m_radius;
+};
+
+}  // namespace tautline

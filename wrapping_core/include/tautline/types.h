@@ -1,0 +1,45 @@
+#pragma once
+/** Vectors, matrices and rigid poses shared by the whole core. Nothing here computes wrapping. */
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <limits>
+
+namespace tautline {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Vec4 = Eigen::Vector4d;
+using Mat3 = Eigen::Matrix3d;
+using Mat4 = Eigen::Matrix4d;
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kPi = 3.14159265358979323846;
+
+/** Rigid pose X_FG of frame G in frame F: p_F = R * p_G + p. */
+struct Pose {
+    Mat3 R = Mat3::Identity();
+    Vec3 p = Vec3::Zero();
+
+    Pose() = default;
+    Pose(const Mat3& rotation, const Vec3& translation) : R(rotation), p(translation) {}
+    explicit Pose(const Vec3& translation) : p(translation) {}
+
+    Vec3 operator*(const Vec3& point) const { return R * point + p; }
+    Pose operator*(const Pose& other) const { return {R * other.R, R * other.p + p}; }
+    Vec3 shiftBack(const Vec3& point) const { return R.transpose() * (point - p); }
+};
+
+/** Angular velocity and velocity of a frame's origin, both in ground: w [rad/s], v [m/s]. */
+struct SpatialVelocity {
+    Vec3 w = Vec3::Zero();
+    Vec3 v = Vec3::Zero();
+};
+
+/** A force and its moment about a frame's origin, both in ground: moment [N m], force [N]. */
+struct SpatialForce {
+    Vec3 moment = Vec3::Zero();
+    Vec3 force = Vec3::Zero();
+};
+
+}  // namespace tautline

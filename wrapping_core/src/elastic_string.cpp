@@ -1,0 +1,236 @@
+#include "tautline/elastic_string.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tautline {
+namespace {
+
+constexpr double kSpacingPerRoom = 0.3;  ///< node spacing over (obstacle size + distance): 20 nodes per turn
+constexpr double kMovePerRoom = 0.3;     ///< farthest move of a node in a sweep: cannot pass a thin obstacle
+constexpr int kMaxNodes = 4000;
+constexpr int kArcGuides = 6;            ///< points taken from each arc of a previous path
+constexpr int kSweepsPerMesh = 20;
+constexpr double kMaxRelaxation = 1.9;
+
+}  // namespace
+
+void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const PathSolution* previous) {
+    m_nodes.clear();
+    m_isFixed.clear();
+    m_holds.clear();
+    m_numSweeps = 0;
+    std::vector<Vec3> arc_S;
+    std::size_t firstOpen = 0;  // holds whose strand has not met its end yet
+    int lastFixed = 0;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!pose.hasElement(e)) continue;
+        const PathElement& element = problem.getElement(e);
+        const Pose& X_GE = pose.X_GE[e];
+        if (element.isPoint()) {
+            lastFixed = static_cast<int>(m_nodes.size());
+            m_nodes.push_back(X_GE.p);
+            m_isFixed.push_back(1);
+            for (; firstOpen < m_holds.size(); ++firstOpen) m_holds[firstOpen].to = lastFixed;
+            continue;
+        }
+        Hold hold;
+        hold.element = e, hold.X_GS = X_GE, hold.from = lastFixed;
+        const auto addGuide = [&](const Vec3& p_S) {
+            if (hold.first < 0) hold.first = static_cast<int>(m_nodes.size());
+            hold.last = static_cast<int>(m_nodes.size());
+            m_nodes.push_back(X_GE * p_S);
+            m_isFixed.push_back(0);
+        };
+        if (previous && !previous->isEmpty() && previous->contacts[e].isTouched) {
+            const GeodesicStart& start = previous->contacts[e].start;
+            if (start.length > 0) {
+                sampleGeodesic(*element.surface, start, GeodesicOptions{1e-4, 200}, kArcGuides, arc_S);
+                for (const Vec3& p_S : arc_S)
+                    if (p_S.allFinite()) addGuide(p_S);
+            } else {
+                addGuide(start.point.p);
+            }
+        } else if ((!previous || previous->isEmpty()) && element.hint_S) {
+            addGuide(element.surface->findSurfacePoint(*element.hint_S).p);
+        }
+        m_holds.push_back(hold);
+    }
+    m_extent = 0;
+    for (std::size_t k = 0; k + 1 < m_nodes.size(); ++k) m_extent += (m_nodes[k + 1] - m_nodes[k]).norm();
+}
+
+void ElasticString::relax(const PathProblem& problem, const PathPose&, double fineness, double tolerance,
+                          int maxSweeps) {
+    if (!(m_extent > 0)) return;
+    double relaxation = 1;
+    for (int i = 0; i < maxSweeps; ++i) {
+        if (i % kSweepsPerMesh == 0) remesh(problem, fineness);
+        updatePortions(problem);
+        const double move = sweep(problem, relaxation, i % 2 == 0);
+        ++m_numSweeps;
+        // Plain steps first, while the string falls into place; then over-relaxation for the long waves.
+        if (i > 2 * kSweepsPerMesh) relaxation = std::min(kMaxRelaxation, relaxation + 0.05);
+        if (i > kSweepsPerMesh && move < tolerance) break;
+    }
+    updatePortions(problem);
+}
+
+/** Room at a point: least of (size + distance) over the obstacles that may act there. */
+double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int node) const {
+    double room = m_extent;
+    Vec3 N_S;
+    for (const Hold& hold : m_holds) {
+        if (node < hold.from || node > hold.to) continue;
+        const Surface& surface = *problem.getElement(hold.element).surface;
+        room = std::min(room, surface.getSize() + std::abs(surface.calcHeight(hold.X_GS.shiftBack(x), N_S)));
+    }
+    return room;
+}
+
+/** New nodes along the polygon, closer where room is small; contacts keep their place on the string. */
+void ElasticString::remesh(const PathProblem& problem, double fineness) {
+    const double least = m_extent / kMaxNodes;
+    std::vector<Vec3> nodes;
+    std::vector<char> isFixed;
+    std::vector<int> newIndex(m_nodes.size());  // of the new node at or just after an old one
+    for (std::size_t k = 0; k < m_nodes.size(); ++k) {
+        newIndex[k] = static_cast<int>(nodes.size());
+        if (k + 1 == m_nodes.size() || m_isFixed[k] || nodes.empty()) {
+            nodes.push_back(m_nodes[k]);
+            isFixed.push_back(m_isFixed[k]);
+        }
+        if (k + 1 == m_nodes.size()) break;
+        const Vec3 edge = m_nodes[k + 1] - m_nodes[k];
+        // March along the edge; what is left of a step carries over to the next edge.
+        const double length = edge.norm();
+        double at = 0;
+        while (static_cast<int>(nodes.size()) < kMaxNodes) {
+            const double spacing =
+                std::max(least, fineness * kSpacingPerRoom * calcRoom(problem, nodes.back(), static_cast<int>(k)));
+            // Where the last node lies relative to this edge: step from it to the sphere of radius `spacing`.
+            const Vec3 toStart = m_nodes[k] - nodes.back();
+            const Vec3 direction = length > 0 ? Vec3(edge / length) : Vec3(Vec3::Zero());
+            const double b = toStart.dot(direction), c = toStart.squaredNorm() - spacing * spacing;
+            const double discriminant = b * b - c;
+            if (!(discriminant > 0) || !(length > 0)) break;
+            const double next = -b + std::sqrt(discriminant);
+            const double end = m_isFixed[k + 1] ? length - 0.5 * spacing : length;
+            if (!(next > at) || next >= end) break;
+            at = next;
+            nodes.push_back(m_nodes[k] + at * direction);
+            isFixed.push_back(0);
+        }
+    }
+    for (Hold& hold : m_holds) {
+        hold.from = newIndex[hold.from], hold.to = newIndex[hold.to];
+        if (!hold.touches()) continue;
+        const int last = static_cast<int>(nodes.size()) - 2;
+        hold.first = std::clamp(newIndex[hold.first], 1, std::max(1, last));
+        hold.last = std::clamp(newIndex[hold.last], hold.first, std::max(hold.first, last));
+    }
+    m_nodes.swap(nodes);
+    m_isFixed.swap(isFixed);
+    m_room.assign(m_nodes.size(), m_extent);
+    m_stiffness.resize(m_nodes.size());
+    for (std::size_t k = 0; k + 1 < m_nodes.size(); ++k)
+        m_stiffness[k] = 1 / std::max(least * 1e-3, (m_nodes[k + 1] - m_nodes[k]).norm());
+}
+
+/** Each obstacle acts from the last contact before it (in path order) to the first contact after it. */
+void ElasticString::updatePortions(const PathProblem& problem) {
+    const int n = static_cast<int>(m_holds.size());
+    Vec3 N_S;
+    int before = 0;
+    for (int i = 0; i < n; ++i) {
+        before = std::max(before, m_holds[i].from);
+        m_holds[i].portionBegin = before;
+        if (m_holds[i].touches()) before = std::max(before, m_holds[i].last);
+    }
+    int after = static_cast<int>(m_nodes.size()) - 1;
+    for (int i = n - 1; i >= 0; --i) {
+        Hold& hold = m_holds[i];
+        after = std::min(after, hold.to);
+        hold.portionEnd = after;
+        if (hold.touches()) after = std::min(after, hold.first);
+        const Surface& surface = *problem.getElement(hold.element).surface;
+        const auto isInside = [&](int node) {
+            return m_isFixed[node] && surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) < -1e-10 * surface.getSize();
+        };
+        hold.isSwitchedOff = isInside(hold.portionBegin) || isInside(hold.portionEnd);
+    }
+}
+
+/** One projected sweep over all nodes. @return largest move relative to the room of the node */
+double ElasticString::sweep(const PathProblem& problem, double relaxation, bool isForward) {
+    for (Hold& hold : m_holds) hold.first = hold.last = -1;
+    double largest = 0;
+    const int n = static_cast<int>(m_nodes.size());
+    for (int step = 1; step + 1 < n; ++step) {
+        const int k = isForward ? step : n - 1 - step;
+        if (m_isFixed[k]) continue;
+        const Vec3 old = m_nodes[k];
+        const double left = m_stiffness[k - 1], right = m_stiffness[k];
+        Vec3 move = relaxation * ((left * m_nodes[k - 1] + right * m_nodes[k + 1]) / (left + right) - old);
+        const double limit = kMovePerRoom * m_room[k], length = move.norm();
+        if (length > limit) move *= limit / length;
+        m_nodes[k] = old + move;
+        double room = m_extent;
+        pushOut(problem, k, m_holds, room);
+        m_room[k] = room;
+        largest = std::max(largest, (m_nodes[k] - old).norm() / room);
+    }
+    return largest;
+}
+
+/** Moves a node out of the obstacles that act on it and notes the contacts. */
+void ElasticString::pushOut(const PathProblem& problem, int node, std::vector<Hold>& holds, double& room) {
+    for (Hold& hold : holds) {
+        if (hold.isSwitchedOff || node <= hold.portionBegin || node >= hold.portionEnd) continue;
+        const Surface& surface = *problem.getElement(hold.element).surface;
+        Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
+        const double height = surface.calcHeight(p_S, N_S), size = surface.getSize();
+        room = std::min(room, size + std::abs(height));
+        if (height > 0) continue;
+        if (height > -0.02 * size)
+            m_nodes[node] = hold.X_GS * Vec3(p_S - height * N_S);
+        else
+            m_nodes[node] = hold.X_GS * surface.findSurfacePoint(p_S).p;
+        if (hold.first < 0) hold.first = hold.last = node;
+        hold.first = std::min(hold.first, node);
+        hold.last = std::max(hold.last, node);
+    }
+}
+
+void ElasticString::extractContacts(const PathProblem& problem, const PathPose& pose,
+                                    std::vector<ObstacleContact>& contacts) const {
+    contacts.resize(problem.getNumElements());
+    for (ObstacleContact& contact : contacts) contact.isTouched = contact.isSwitchedOff = false;
+    for (const Hold& hold : m_holds) {
+        ObstacleContact& contact = contacts[hold.element];
+        contact.isSwitchedOff = hold.isSwitchedOff;
+        contact.isTouched = hold.touches() && !hold.isSwitchedOff;
+        if (!contact.isTouched) continue;
+        const Surface& surface = *problem.getElement(hold.element).surface;
+        const Pose& X_GS = pose.X_GE[hold.element];
+        const Vec3 before = m_nodes[hold.first] - m_nodes[hold.first - 1];
+        const Vec3 after = m_nodes[hold.last + 1] - m_nodes[hold.last];
+        // The string leaves the surface within the edges beside its contact nodes: half of each belongs to
+        // the turning that the first and last node see.
+        const Vec3 along = hold.last > hold.first ? Vec3(m_nodes[hold.first + 1] - m_nodes[hold.first]) : after;
+        contact.start.point = surface.findSurfacePoint(X_GS.shiftBack(m_nodes[hold.first]));
+        contact.start.tangent = X_GS.R.transpose() * (before.normalized() + along.normalized());
+        const DarbouxFrame frame = surface.calcFrame(contact.start.point, contact.start.tangent);
+        contact.start.tangent = frame.t;
+        double length = 0;
+        for (int k = hold.first; k < hold.last; ++k) length += (m_nodes[k + 1] - m_nodes[k]).norm();
+        if (hold.last == hold.first && std::abs(frame.kappaN) > 0) {
+            const double turn = std::acos(std::clamp(before.normalized().dot(after.normalized()), -1.0, 1.0));
+            length = std::min(turn / std::abs(frame.kappaN), 0.5 * (before.norm() + after.norm()));
+            contact.start.point = surface.calcDisplacedPoint(contact.start.point, -0.5 * length * frame.t);
+        }
+        contact.start.length = length;
+    }
+}
+
+}  // namespace tautline

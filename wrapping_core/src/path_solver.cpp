@@ -1,0 +1,270 @@
+#include "tautline/path_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tautline/error.h"
+#include "tautline/path_verification.h"
+
+namespace tautline {
+namespace {
+
+constexpr double kMaxMove = 0.5;    ///< of P and of the length in one step, in sizes of the surface
+constexpr double kMaxTurn = 0.6;    ///< of the start direction in one step [rad]
+constexpr int kMaxHalvings = 6;     ///< of a Newton step that does not lower the error
+constexpr double kLiftLength = -1e-12;  ///< arcs shorter than this (in sizes) are lifted
+
+double calcNorm(const std::vector<double>& v) {
+    double sum = 0;
+    for (double x : v) sum += x * x;
+    return std::sqrt(sum);
+}
+
+}  // namespace
+
+void PathSolverOptions::validate() const {
+    require(pathErrorTolerance > 0 && pathErrorTolerance <= 0.1, "path solver: pathErrorTolerance must be in (0, 0.1], but is ",
+            pathErrorTolerance);
+    require(maxIterations >= 1, "path solver: maxIterations must be at least 1, but is ", maxIterations);
+    require(geodesics.accuracy > 0 && geodesics.accuracy <= 0.1, "path solver: geodesic accuracy must be in (0, 0.1], but is ",
+            geodesics.accuracy);
+    require(geodesics.maxSteps >= 1, "path solver: geodesic maxSteps must be at least 1, but is ", geodesics.maxSteps);
+}
+
+PathSolver::PathSolver(const PathSolverOptions& options) : m_options(options) { options.validate(); }
+
+void PathSolver::solve(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    problem.validate();
+    require(static_cast<int>(pose.X_GE.size()) == problem.getNumElements(), "path solver: ", pose.X_GE.size(),
+            " poses for ", problem.getNumElements(), " elements");
+    path.iterations = path.shots = 0;
+    path.wasCold = false;
+    const bool isContinued = !path.isEmpty();
+    if (!isContinued) path.contacts.assign(problem.getNumElements(), ObstacleContact());
+    bool isFound = isContinued && findPath(problem, pose, path);
+    if (!isFound && m_options.allowsColdStart) {
+        m_previous = path;
+        isFound = (isContinued && findColdPath(problem, pose, &m_previous, path)) ||
+                  findColdPath(problem, pose, nullptr, path);
+    }
+    finish(problem, pose, path.pathError <= m_options.pathErrorTolerance, path);
+}
+
+void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    require(static_cast<int>(path.contacts.size()) == problem.getNumElements(),
+            "path solver: solveKeepingContacts needs a path that was solved before");
+    path.iterations = path.shots = 0;
+    path.wasCold = false;
+    const bool isConverged = iterateNewton(problem, pose, path) == Outcome::Converged;
+    updateClearances(problem, pose, path);
+    path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
+}
+
+/** Continues from the contact set and starts in `path`. @return true if a verified minimum was found */
+bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    return iterateContactSet(problem, pose, path) && verifyPath(problem, pose, path).isMinimum();
+}
+
+/** Lets a string fall taut along the guides, ever finer, until Newton's method leads on from it to a
+verified minimum. */
+bool PathSolver::findColdPath(const PathProblem& problem, const PathPose& pose, const PathSolution* previous,
+                              PathSolution& path) {
+    struct Level {
+        double fineness, tolerance;
+        int maxSweeps;
+    };
+    constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 6000}};
+    path.wasCold = true;
+    m_string.lay(problem, pose, previous);
+    for (const Level& level : kLevels) {
+        m_string.relax(problem, pose, level.fineness, level.tolerance, level.maxSweeps);
+        for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
+        m_string.extractContacts(problem, pose, path.contacts);
+        if (findPath(problem, pose, path)) return true;
+    }
+    return false;
+}
+
+/** Newton on one contact set, then lift what has negative length and touch what is penetrated, one at a
+time, until neither is left. @return true if converged so */
+bool PathSolver::iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    const int maxChanges = 3 * problem.getNumElements() + 10;
+    for (int change = 0; change <= maxChanges; ++change) {
+        if (iterateNewton(problem, pose, path) != Outcome::Converged) {
+            updateClearances(problem, pose, path);
+            return false;
+        }
+        updateClearances(problem, pose, path);
+        if (!switchContacts(problem, pose, path)) return true;
+    }
+    return false;
+}
+
+/** Thesis Sec. 4.6: shoot, assemble, solve, correct, until the path error vanishes; with a step limit and
+backtracking against starts from afar. */
+PathSolver::Outcome PathSolver::iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    path.errorHistory.clear();
+    m_chain.build(problem, pose, path.contacts);
+    bool isFinite = shootChain(problem, pose, m_options.geodesics, m_chain);
+    path.shots += static_cast<int>(m_chain.contacts.size());
+    path.pathError = calcPathError(m_chain, m_eps);
+    path.errorHistory.push_back(path.pathError);
+    for (int i = 0; isFinite && path.pathError > m_options.pathErrorTolerance && i < m_options.maxIterations; ++i) {
+        if (!calcNewtonStep()) break;
+        const double norm = calcNorm(m_eps);
+        double fraction = calcStepFraction(problem), error = kInfinity;
+        bool isLower = false;
+        for (int halving = 0; halving <= kMaxHalvings && !isLower; ++halving, fraction /= 2) {
+            applyStep(problem, fraction);
+            path.shots += static_cast<int>(m_trial.contacts.size());
+            if (!shootChain(problem, pose, m_options.geodesics, m_trial)) continue;
+            error = calcPathError(m_trial, m_trialEps);
+            isLower = calcNorm(m_trialEps) < norm;
+        }
+        ++path.iterations;
+        if (!isLower) break;
+        std::swap(m_chain, m_trial);
+        std::swap(m_eps, m_trialEps);
+        path.pathError = error;
+        path.errorHistory.push_back(error);
+    }
+    storeChain(path);
+    return isFinite && path.pathError <= m_options.pathErrorTolerance ? Outcome::Converged : Outcome::Failed;
+}
+
+/** m_step = -J^-1 eps (thesis Eqn. 4.57). */
+bool PathSolver::calcNewtonStep() {
+    calcPathErrorJacobian(m_chain, m_jacobian);
+    m_step.resize(m_eps.size());
+    for (std::size_t i = 0; i < m_eps.size(); ++i) m_step[i] = -m_eps[i];
+    return m_jacobian.solveInPlace(m_step);
+}
+
+/** Largest fraction of m_step, up to 1, that keeps every geodesic within the step limits. */
+double PathSolver::calcStepFraction(const PathProblem& problem) const {
+    double fraction = 1;
+    for (std::size_t i = 0; i < m_chain.contacts.size(); ++i) {
+        const double limit = kMaxMove * problem.getElement(m_chain.contacts[i].element).surface->getSize();
+        const double* d = &m_step[kVariations * i];
+        const double move = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[3])});
+        if (move * fraction > limit) fraction = limit / move;
+        if (std::abs(d[2]) * fraction > kMaxTurn) fraction = kMaxTurn / std::abs(d[2]);
+    }
+    return fraction;
+}
+
+void PathSolver::applyStep(const PathProblem& problem, double fraction) {
+    m_trial = m_chain;
+    for (std::size_t i = 0; i < m_chain.contacts.size(); ++i) {
+        const ChainContact& contact = m_chain.contacts[i];
+        const Vec4 correction = fraction * Eigen::Map<const Vec4>(&m_step[kVariations * i]);
+        m_trial.contacts[i].start = calcCorrectedStart(*problem.getElement(contact.element).surface, contact.start,
+                                                       contact.geodesic.P, correction);
+    }
+}
+
+void PathSolver::storeChain(PathSolution& path) const {
+    path.segments.resize(m_chain.segments.size());
+    for (std::size_t j = 0; j < m_chain.segments.size(); ++j) path.segments[j] = m_chain.segments[j].line;
+    for (const ChainContact& from : m_chain.contacts) {
+        ObstacleContact& to = path.contacts[from.element];
+        to.start = from.start;
+        to.start.tangent = from.geodesic.P.t;
+        to.geodesic = from.geodesic;
+        to.segment = -1;
+    }
+    path.length = calcLength(m_chain);
+}
+
+/** Clearances of all lifted obstacles on the segments that pass them, and which ends lie inside. */
+void PathSolver::updateClearances(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    int segment = 0;
+    Vec3 N_S;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const PathElement& element = problem.getElement(e);
+        if (element.isPoint() || !pose.hasElement(e)) continue;
+        while (segment + 1 < static_cast<int>(path.segments.size()) && path.segments[segment].toElement < e) ++segment;
+        ObstacleContact& contact = path.contacts[e];
+        const Surface& surface = *element.surface;
+        const StraightSegment& in = path.segments[segment];
+        const StraightSegment& out = contact.isTouched ? path.segments[segment + 1] : in;
+        const auto isInside = [&](int end) {
+            return problem.getElement(end).isPoint() &&
+                   surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[end].p), N_S) <
+                       kContactTolerance * surface.getSize();
+        };
+        contact.isSwitchedOff = isInside(in.fromElement) || isInside(out.toElement);
+        if (contact.isTouched) continue;
+        contact.segment = segment;
+        findSegmentClearance(surface, pose.X_GE[e], in.A, in.B, contact.clearance);
+    }
+}
+
+/** Switches the contact that violates its condition most. @return false if none does */
+bool PathSolver::switchContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    int lift = -1, touch = -1;
+    double shortest = kLiftLength, deepest = kContactTolerance;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (problem.getElement(e).isPoint() || !pose.hasElement(e)) continue;
+        const ObstacleContact& contact = path.contacts[e];
+        const double size = problem.getElement(e).surface->getSize();
+        if (contact.isTouched) {
+            const double length = contact.isSwitchedOff ? -kInfinity : contact.start.length / size;
+            if (length < shortest) shortest = length, lift = e;
+        } else if (!contact.isSwitchedOff) {
+            const double depth = contact.clearance.distance * contact.clearance.scale;
+            if (depth < deepest) deepest = depth, touch = e;
+        }
+    }
+    if (lift >= 0) {
+        ObstacleContact& contact = path.contacts[lift];
+        contact.isTouched = false;
+        contact.clearance = LineClearance();
+        contact.clearance.C = contact.start.point;
+        contact.clearance.N = contact.geodesic.P.N;
+        return true;
+    }
+    if (touch >= 0) {
+        touchAtClearance(*problem.getElement(touch).surface,
+                         pose.X_GE[touch].R.transpose() * path.segments[path.contacts[touch].segment].e,
+                         path.contacts[touch]);
+        return true;
+    }
+    return false;
+}
+
+void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) {
+    path.status = PathStatus::Solved;
+    for (int e = 0; e < problem.getNumElements(); ++e)
+        if (!problem.getElement(e).isPoint() && pose.hasElement(e) && path.contacts[e].isSwitchedOff)
+            path.status = PathStatus::EndInside;
+    if (!isConverged) {
+        path.status = PathStatus::NotConverged;
+        return;
+    }
+    const PathVerification verification = verifyPath(problem, pose, path);
+    if (verification.condition == PathVerification::Condition::OutsideDomain)
+        path.status = PathStatus::LeftDomain;
+    else if (!verification.isMinimum())
+        path.status = PathStatus::NotMinimum;
+}
+
+void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& contact) {
+    const LineClearance& clearance = contact.clearance;
+    const DarbouxFrame frame = surface.calcFrame(clearance.C, e_S);
+    // The chord that the line cuts from the osculating circle stands for the arc.
+    const double curvature = std::max(std::abs(frame.kappaN), 1e-3 * clearance.scale);
+    const double half = std::min(std::sqrt(2 * std::max(0.0, -clearance.distance) / curvature), 1 / curvature);
+    contact.isTouched = true;
+    contact.start.point = surface.calcDisplacedPoint(clearance.C, -half * frame.t);
+    contact.start.tangent = surface.calcFrame(contact.start.point, frame.t).t;
+    contact.start.length = 2 * half;
+}
+
+PathSolution solvePath(const PathProblem& problem, const PathPose& pose, const PathSolverOptions& options) {
+    PathSolution path;
+    PathSolver(options).solve(problem, pose, path);
+    return path;
+}
+
+}  // namespace tautline

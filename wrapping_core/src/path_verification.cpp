@@ -1,0 +1,121 @@
+#include "tautline/path_verification.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tautline/path_solver.h"
+
+namespace tautline {
+namespace {
+
+using Condition = PathVerification::Condition;
+
+/** True if the arc presses on its surface all along: kappa_n <= 0 at closely spaced points. */
+bool pressesEverywhere(const Surface& surface, const ObstacleContact& contact) {
+    const double tolerance = 1e-9 / surface.getSize();
+    if (contact.geodesic.P.kappaN > tolerance || contact.geodesic.Q.kappaN > tolerance) return false;
+    if (surface.isConvex() || !(contact.start.length > 0)) return true;
+    const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * contact.start.length / surface.getSize()));
+    GeodesicStart from = contact.start;
+    from.length /= pieces;
+    Geodesic piece;
+    for (int i = 1; i < pieces; ++i) {
+        surface.shootGeodesic(from, GeodesicOptions{1e-6, 200}, piece);
+        if (piece.Q.kappaN > tolerance) return false;
+        from.point = piece.endPoint, from.tangent = piece.Q.t;
+    }
+    return true;
+}
+
+/** True if a straight segment that leaves the surface at one end dips below it elsewhere. */
+bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSegment& line) {
+    if (surface.isConvex() || !(line.length > 0)) return false;
+    const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.R.transpose() * line.e;
+    // Near the tangent end the height is rounding of a square: judge beyond a margin only.
+    Vec3 N;
+    const double s = surface.findLowestPoint(A_S, e_S, line.length);
+    return surface.calcHeight(A_S + s * e_S, N) < -1e-9 * surface.getSize();
+}
+
+bool isInDomain(const Surface& surface, const ObstacleContact& contact) {
+    return surface.isInDomain(contact.start.point) && surface.isInDomain(contact.geodesic.endPoint);
+}
+
+Condition verifyContact(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
+                        const StraightSegment& in, const StraightSegment& out) {
+    const Geodesic& arc = contact.geodesic;
+    if (!isInDomain(surface, contact)) return Condition::OutsideDomain;
+    if (!(in.e.dot(X_GS.R * arc.P.t) > 0) || !(out.e.dot(X_GS.R * arc.Q.t) > 0)) return Condition::ReversedTangent;
+    if (contact.start.length < -1e-12 * surface.getSize()) return Condition::NegativeLength;
+    if (arc.hasConjugatePoint && contact.start.length > 0) return Condition::ConjugatePoint;
+    if (!pressesEverywhere(surface, contact)) return Condition::PullsOutward;
+    if (meetsOwnSurface(surface, X_GS, in) || meetsOwnSurface(surface, X_GS, out)) return Condition::Penetration;
+    return Condition::None;
+}
+
+}  // namespace
+
+PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    int segmentIn = 0;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const PathElement& element = problem.getElement(e);
+        if (element.isPoint() || !pose.hasElement(e)) continue;
+        const ObstacleContact& contact = path.contacts[e];
+        Condition condition = Condition::None;
+        if (contact.isTouched) {
+            while (path.segments[segmentIn].toElement != e) ++segmentIn;
+            condition = verifyContact(*element.surface, pose.X_GE[e], contact, path.segments[segmentIn],
+                                      path.segments[segmentIn + 1]);
+        } else if (!contact.isSwitchedOff &&
+                   contact.clearance.distance * contact.clearance.scale < kContactTolerance) {
+            condition = Condition::Penetration;
+        }
+        if (condition != Condition::None) return {condition, e};
+    }
+    return {};
+}
+
+std::string describe(const PathVerification& verification, const PathProblem& problem) {
+    if (verification.isMinimum()) return "a local minimum";
+    const std::string name = "'" + problem.getElement(verification.element).name + "'";
+    switch (verification.condition) {
+        case Condition::ReversedTangent: return "the path turns back at " + name;
+        case Condition::NegativeLength: return "the arc on " + name + " has negative length";
+        case Condition::PullsOutward: return "the arc on " + name + " would lift inside";
+        case Condition::ConjugatePoint: return "the arc on " + name + " goes beyond its conjugate point";
+        case Condition::Penetration: return "a straight segment passes below the surface of " + name;
+        case Condition::OutsideDomain: return "the arc on " + name + " leaves the domain of its surface";
+        case Condition::None: break;
+    }
+    return "a local minimum";
+}
+
+void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& A_G, const Vec3& B_G,
+                          LineClearance& clearance) {
+    const Vec3 A_S = X_GS.shiftBack(A_G), B_S = X_GS.shiftBack(B_G);
+    const double length = (B_S - A_S).norm();
+    const Vec3 e_S = length > 0 ? Vec3((B_S - A_S) / length) : Vec3(Vec3::UnitX());
+    LineClearance kept = clearance;
+    kept.found = false;
+    if (kept.N.allFinite() && kept.C.p.allFinite()) surface.findLineClearance(A_S, e_S, kept);
+    if (!kept.found) {
+        const Vec3 D = A_S + surface.findLowestPoint(A_S, e_S, length) * e_S;
+        kept.C = surface.findSurfacePoint(D);
+        kept.N = surface.calcFrame(kept.C, e_S).N;
+        surface.findLineClearance(A_S, e_S, kept);
+    }
+    // Eqn. 6.3 puts D on the infinite line: past an end, the height of that end is what counts.
+    if (!kept.found || !(kept.lineCoordinate >= 0 && kept.lineCoordinate <= length)) {
+        const bool isBeforeA = kept.found && kept.lineCoordinate < 0;
+        const double s = !kept.found ? surface.findLowestPoint(A_S, e_S, length) : isBeforeA ? 0 : length;
+        const Vec3 D = A_S + s * e_S;
+        kept.C = surface.findSurfacePoint(D);
+        kept.N = surface.calcFrame(kept.C, e_S).N;
+        kept.distance = (D - kept.C.p).dot(kept.N);
+        kept.scale = 1 / surface.getSize();
+        kept.lineCoordinate = s;
+    }
+    clearance = kept;
+}
+
+}  // namespace tautline
