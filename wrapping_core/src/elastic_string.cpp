@@ -10,6 +10,8 @@ constexpr double kSpacingPerRoom = 0.3;  ///< node spacing over (obstacle size +
 constexpr double kMovePerRoom = 0.3;     ///< farthest move of a node in a sweep: cannot pass a thin obstacle
 constexpr int kMaxNodes = 4000;
 constexpr int kArcGuides = 6;            ///< points taken from each arc of a previous path
+constexpr int kLayingDepth = 6;          ///< bisections of an edge that would cross a surface: 64 pieces
+constexpr double kLayingDepthTolerance = 0.02;  ///< crossings shallower than this (in sizes) are left to the sweeps
 constexpr int kSweepsPerMesh = 20;
 constexpr double kMaxRelaxation = 1.9;
 
@@ -20,44 +22,87 @@ void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const 
     m_isFixed.clear();
     m_holds.clear();
     m_numSweeps = 0;
-    std::vector<Vec3> arc_S;
     std::size_t firstOpen = 0;  // holds whose strand has not met its end yet
-    int lastFixed = 0;
+    int lastFixed = 0, lastGuided = 0;  // lastGuided: the first hold whose surface the next edge may cross
+    std::vector<Vec3> guides;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (!pose.hasElement(e)) continue;
-        const PathElement& element = problem.getElement(e);
-        const Pose& X_GE = pose.X_GE[e];
-        if (element.isPoint()) {
-            lastFixed = static_cast<int>(m_nodes.size());
-            m_nodes.push_back(X_GE.p);
-            m_isFixed.push_back(1);
-            for (; firstOpen < m_holds.size(); ++firstOpen) m_holds[firstOpen].to = lastFixed;
-            continue;
+        const bool isPoint = problem.getElement(e).isPoint();
+        if (!isPoint) {
+            m_holds.emplace_back();
+            m_holds.back().element = e, m_holds.back().X_GS = pose.X_GE[e], m_holds.back().from = lastFixed;
         }
-        Hold hold;
-        hold.element = e, hold.X_GS = X_GE, hold.from = lastFixed;
-        const auto addGuide = [&](const Vec3& p_S) {
-            if (hold.first < 0) hold.first = static_cast<int>(m_nodes.size());
-            hold.last = static_cast<int>(m_nodes.size());
-            m_nodes.push_back(X_GE * p_S);
-            m_isFixed.push_back(0);
-        };
-        if (previous && !previous->isEmpty() && previous->contacts[e].isTouched) {
-            const GeodesicStart& start = previous->contacts[e].start;
-            if (start.length > 0) {
-                sampleGeodesic(*element.surface, start, GeodesicOptions{1e-4, 200}, kArcGuides, arc_S);
-                for (const Vec3& p_S : arc_S)
-                    if (p_S.allFinite()) addGuide(p_S);
-            } else {
-                addGuide(start.point.p);
-            }
-        } else if ((!previous || previous->isEmpty()) && element.hint_S) {
-            addGuide(element.surface->findSurfacePoint(*element.hint_S).p);
+        findGuides(problem.getElement(e), pose.X_GE[e], previous ? &previous->contacts[e] : nullptr, guides);
+        const int current = static_cast<int>(m_holds.size()) - 1;
+        for (const Vec3& guide : guides) {
+            if (!m_nodes.empty()) layEdge(problem, lastGuided, m_nodes.back(), guide, kLayingDepth);
+            addNode(guide, isPoint);
+            if (!isPoint) noteContact(m_holds[current], static_cast<int>(m_nodes.size()) - 1);
+            lastGuided = isPoint ? current + 1 : current;
         }
-        m_holds.push_back(hold);
+        if (!isPoint) continue;
+        lastFixed = static_cast<int>(m_nodes.size()) - 1;
+        for (; firstOpen < m_holds.size(); ++firstOpen) m_holds[firstOpen].to = lastFixed;
     }
     m_extent = 0;
     for (std::size_t k = 0; k + 1 < m_nodes.size(); ++k) m_extent += (m_nodes[k + 1] - m_nodes[k]).norm();
+}
+
+/** Points that the string is laid through: the point itself, the arc of a previous path, or the hint. */
+void ElasticString::findGuides(const PathElement& element, const Pose& X_GE, const ObstacleContact* previous,
+                               std::vector<Vec3>& guides) const {
+    guides.clear();
+    if (element.isPoint()) {
+        guides.push_back(X_GE.p);
+    } else if (previous) {
+        if (!previous->isTouched) return;
+        if (previous->start.length > 0)
+            sampleGeodesic(*element.surface, previous->start, GeodesicOptions{1e-4, 200}, kArcGuides, guides);
+        else
+            guides.push_back(previous->start.point.p);
+        for (Vec3& guide : guides) guide = X_GE * guide;
+        guides.erase(std::remove_if(guides.begin(), guides.end(), [](const Vec3& p) { return !p.allFinite(); }),
+                     guides.end());
+    } else if (element.hint_S) {
+        guides.push_back(X_GE * element.surface->findSurfacePoint(*element.hint_S).p);
+    }
+}
+
+/** Lays the string from A, the last node, towards B around the surfaces that this edge would cross: it is
+bent outwards where it is deepest, and so on for both halves. B itself is not added. */
+void ElasticString::layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth) {
+    int crossed = -1;
+    double deepest = -kLayingDepthTolerance;
+    Vec3 bend = Vec3::Zero(), N_S;
+    const double length = (B - A).norm();
+    if (depth == 0 || !(length > 0)) return;
+    for (int i = firstHold; i < static_cast<int>(m_holds.size()); ++i) {
+        const Surface& surface = *problem.getElement(m_holds[i].element).surface;
+        const Pose& X_GS = m_holds[i].X_GS;
+        const Vec3 A_S = X_GS.shiftBack(A), e_S = X_GS.R.transpose() * (B - A) / length;
+        const double s = surface.findLowestPoint(A_S, e_S, length);
+        const Vec3 D_S = A_S + s * e_S;
+        const double depthThere = surface.calcHeight(D_S, N_S) / surface.getSize();
+        // An end below the surface is no bend: that obstacle is switched off, or the guide lies in another.
+        if (!(depthThere < deepest) || s <= 0 || s >= length) continue;
+        deepest = depthThere, crossed = i;
+        bend = X_GS * surface.findSurfacePoint(D_S).p;
+    }
+    if (crossed < 0) return;
+    layEdge(problem, firstHold, A, bend, depth - 1);
+    addNode(bend, false);
+    noteContact(m_holds[crossed], static_cast<int>(m_nodes.size()) - 1);
+    layEdge(problem, firstHold, bend, B, depth - 1);
+}
+
+void ElasticString::addNode(const Vec3& x, bool isFixed) {
+    m_nodes.push_back(x);
+    m_isFixed.push_back(isFixed);
+}
+
+void ElasticString::noteContact(Hold& hold, int node) {
+    hold.first = hold.first < 0 ? node : std::min(hold.first, node);
+    hold.last = std::max(hold.last, node);
 }
 
 void ElasticString::relax(const PathProblem& problem, const PathPose&, double fineness, double tolerance,
@@ -83,7 +128,7 @@ double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int no
     for (const Hold& hold : m_holds) {
         if (node < hold.from || node > hold.to) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
-        room = std::min(room, surface.getSize() + std::abs(surface.calcHeight(hold.X_GS.shiftBack(x), N_S)));
+        room = std::min(room, surface.getSize() + std::max(0.0, surface.calcHeight(hold.X_GS.shiftBack(x), N_S)));
     }
     return room;
 }
@@ -190,15 +235,13 @@ void ElasticString::pushOut(const PathProblem& problem, int node, std::vector<Ho
         const Surface& surface = *problem.getElement(hold.element).surface;
         Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
         const double height = surface.calcHeight(p_S, N_S), size = surface.getSize();
-        room = std::min(room, size + std::abs(height));
+        room = std::min(room, size + std::max(0.0, height));
         if (height > 0) continue;
         if (height > -0.02 * size)
             m_nodes[node] = hold.X_GS * Vec3(p_S - height * N_S);
         else
             m_nodes[node] = hold.X_GS * surface.findSurfacePoint(p_S).p;
-        if (hold.first < 0) hold.first = hold.last = node;
-        hold.first = std::min(hold.first, node);
-        hold.last = std::max(hold.last, node);
+        noteContact(hold, node);
     }
 }
 

@@ -217,11 +217,7 @@ bool PathSolver::switchContacts(const PathProblem& problem, const PathPose& pose
         }
     }
     if (lift >= 0) {
-        ObstacleContact& contact = path.contacts[lift];
-        contact.isTouched = false;
-        contact.clearance = LineClearance();
-        contact.clearance.C = contact.start.point;
-        contact.clearance.N = contact.geodesic.P.N;
+        liftContact(path.contacts[lift]);
         return true;
     }
     if (touch >= 0) {
@@ -259,6 +255,13 @@ void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& 
     contact.start.point = surface.calcDisplacedPoint(clearance.C, -half * frame.t);
     contact.start.tangent = surface.calcFrame(contact.start.point, frame.t).t;
     contact.start.length = 2 * half;
+}
+
+void liftContact(ObstacleContact& contact) {
+    contact.isTouched = false;
+    contact.clearance = LineClearance();
+    contact.clearance.C = contact.start.point;
+    contact.clearance.N = contact.geodesic.P.N;
 }
 
 PathSolution solvePath(const PathProblem& problem, const PathPose& pose, const PathSolverOptions& options) {

@@ -41,7 +41,7 @@ double Sphere::calcHeight(const Vec3& p_S, Vec3& N_S) const {
 SurfacePoint Sphere::findSurfacePoint(const Vec3& p_S) const {
     Vec3 N;
     calcHeight(p_S, N);
-    return {m_radius * N, Vec2::Zero()};
+    return {m_radius * N};
 }
 
 void Sphere::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Geodesic& geodesic) const {
@@ -51,7 +51,7 @@ void Sphere::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, G
     geodesic.Q.N = c * P.N + s * P.t;  // B stays: a great circle has no torsion
     geodesic.Q.t = c * P.t - s * P.N;
     geodesic.Q.x = m_radius * geodesic.Q.N;
-    geodesic.endPoint = {geodesic.Q.x, Vec2::Zero()};
+    geodesic.endPoint = {geodesic.Q.x};
     geodesic.length = start.length;
     geodesic.a = c, geodesic.aDot = -s / m_radius;
     geodesic.r = m_radius * s, geodesic.rDot = c;
@@ -65,7 +65,7 @@ void Sphere::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& 
     const Vec3 D = A_S + s * e_S;  // nearest the centre
     Vec3 N = makeOrthogonalUnit(e_S, D);
     if (N.dot(clearance.N) < 0) N = -N;  // of the two critical points, the one on the side that is kept
-    clearance = {{m_radius * N, Vec2::Zero()}, N, s, D.dot(N) - m_radius, 1 / m_radius, true};
+    clearance = {{m_radius * N}, N, s, D.dot(N) - m_radius, 1 / m_radius, true};
 }
 
 Cylinder::Cylinder(double radius) : m_radius(radius) { requireLength(radius, "cylinder: radius"); }
@@ -81,7 +81,7 @@ double Cylinder::calcHeight(const Vec3& p_S, Vec3& N_S) const {
 SurfacePoint Cylinder::findSurfacePoint(const Vec3& p_S) const {
     Vec3 N;
     calcHeight(p_S, N);
-    return {Vec3(m_radius * N.x(), m_radius * N.y(), p_S.z()), Vec2::Zero()};
+    return {Vec3(m_radius * N.x(), m_radius * N.y(), p_S.z())};
 }
 
 void Cylinder::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Geodesic& geodesic) const {
@@ -93,7 +93,7 @@ void Cylinder::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&,
     geodesic.Q = P;
     geodesic.Q.x = turn(P.x) + P.t.z() * start.length * Vec3::UnitZ();
     geodesic.Q.t = turn(P.t), geodesic.Q.N = turn(P.N), geodesic.Q.B = turn(P.B);
-    geodesic.endPoint = {geodesic.Q.x, Vec2::Zero()};
+    geodesic.endPoint = {geodesic.Q.x};
     geodesic.length = geodesic.r = start.length;
     geodesic.a = 1, geodesic.aDot = 0, geodesic.rDot = 1;
     geodesic.steps = 0, geodesic.converged = true, geodesic.hasConjugatePoint = false;
@@ -111,7 +111,7 @@ void Cylinder::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance
     if (side < 0) N = -N;
     const Vec3 C(m_radius * N.x(), m_radius * N.y(), D.z());
     // kappa_n along the line vanishes with sine2; 1/size stands in for it then.
-    clearance = {{C, Vec2::Zero()}, N, s, (D - C).dot(N), 1 / m_radius, true};
+    clearance = {{C}, N, s, (D - C).dot(N), 1 / m_radius, true};
 }
 
 Ellipsoid::Ellipsoid(const Vec3& semiAxes) : m_semiAxes(semiAxes), m_size(semiAxes.minCoeff()) {

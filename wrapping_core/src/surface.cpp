@@ -1,40 +1,44 @@
 #include "tautline/surface.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "tautline/error.h"
 
 namespace tautline {
 
-/** Thesis Sec. 7.6: unknowns w = (s_0, s_1, s_2), the places of D on the line and of C on two orthogonal
-geodesics; here the basis e_1 = t, e_2 = B of a Darboux frame at C with t nearest the line. */
+/** The critical point by Newton's method on two conditions for C alone,
+
+    F1 = e . N = 0,     F2 = (e x N) . (A - C) / size = 0,
+
+which hold exactly where the thesis's three do (Eqn. 7.28: D - C along N and orthogonal to the line) if d is
+not 0. Those three have a Jacobian whose determinant is proportional to d, so that C is lost to rounding
+where it matters most, at touchdown; these two stay regular there as long as kappa_n is not 0. */
 void Surface::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const {
     constexpr int kMaxIterations = 50;
-    const double size = getSize(), tolerance = 1e-12 * (size + (clearance.C.p - A_S).norm());
+    const double size = getSize(), tolerance = 1e-9 * size;  // of the step; what is left is its square
     clearance.found = false;
     SurfacePoint C = clearance.C;
-    double s0 = (C.p - A_S).dot(e_S);
     for (int i = 0; i < kMaxIterations; ++i) {
-        const DarbouxFrame frame = calcFrame(C, std::abs(e_S.dot(clearance.N)) < 0.99 ? e_S : e_S.unitOrthogonal());
-        const Vec3 dr = A_S + s0 * e_S - C.p;
-        const double d = frame.N.dot(dr), e1 = e_S.dot(frame.t), e2 = e_S.dot(frame.B);
-        const Vec3 g(e_S.dot(dr), frame.t.dot(dr), frame.B.dot(dr));  // Eqn. 7.28
-        // Eqn. 7.33; B = t x N turns the sign of the mixed term against the printed e_2 = N x e_1.
-        Mat3 J;
-        J << 1, -e1, -e2,                                              //
-            e1, frame.kappaN * d - 1, -frame.tauG * d,                 //
-            e2, -frame.tauG * d, frame.kappaB * d - 1;
-        const Vec3 step = -J.fullPivLu().solve(g);
+        const DarbouxFrame frame = calcFrame(C, e_S);  // t is e made tangent
+        const double et = e_S.dot(frame.t);
+        if (!(std::abs(et) > 1e-6)) return;  // the line runs along the normal: no start for Newton
+        const Vec3 w = A_S - C.p;
+        const Vec3 dN_t = -frame.kappaN * frame.t + frame.tauG * frame.B;
+        const Vec3 dN_B = frame.tauG * frame.t - frame.kappaB * frame.B;
+        const double F1 = e_S.dot(frame.N), F2 = et * frame.B.dot(w) / size;
+        const double J11 = e_S.dot(dN_t), J12 = e_S.dot(dN_B);
+        const double J21 = e_S.cross(dN_t).dot(w) / size, J22 = (e_S.cross(dN_B).dot(w) - et) / size;
+        const double determinant = J11 * J22 - J12 * J21;
+        Vec2 step((J12 * F2 - J22 * F1) / determinant, (J21 * F1 - J11 * F2) / determinant);
         if (!step.allFinite()) return;
-        const double limit = size / std::max(size, step.tail<2>().norm());  // no farther on the surface than its size
-        s0 += limit * step[0];
-        C = calcDisplacedPoint(C, limit * (step[1] * frame.t + step[2] * frame.B));
-        if (step.norm() > tolerance) continue;  // quadratic: what is left is its square, rounding
+        step *= size / std::max(size, step.norm());  // no farther in one step than the surface's size
+        C = calcDisplacedPoint(C, step[0] * frame.t + step[1] * frame.B);
+        if (step.norm() > tolerance) continue;
         const DarbouxFrame end = calcFrame(C, e_S);
-        const Vec3 r = A_S + s0 * e_S - C.p;
         if (!(end.N.dot(clearance.N) > 0)) return;  // slid to another critical point
-        clearance = {C, end.N, s0, r.dot(end.N), std::max(std::abs(end.kappaN), 1 / size), true};
+        const double distance = end.N.dot(A_S - C.p);  // e . N = 0: the same from any point of the line
+        const double s0 = e_S.dot(C.p - A_S);
+        clearance = {C, end.N, s0, distance, std::max(std::abs(end.kappaN), 1 / size), true};
         return;
     }
 }

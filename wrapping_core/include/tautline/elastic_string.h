@@ -36,6 +36,11 @@ private:
         bool touches() const { return first >= 0; }
     };
 
+    void findGuides(const PathElement& element, const Pose& X_GE, const ObstacleContact* previous,
+                    std::vector<Vec3>& guides) const;
+    void layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth);
+    void addNode(const Vec3& x, bool isFixed);
+    static void noteContact(Hold& hold, int node);
     void remesh(const PathProblem& problem, double fineness);
     void updatePortions(const PathProblem& problem);
     double sweep(const PathProblem& problem, double relaxation, bool isForward);

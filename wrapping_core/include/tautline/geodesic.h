@@ -10,6 +10,7 @@ too, so that charts with seams and several turns stay continuous. */
 struct SurfacePoint {
     Vec3 p = Vec3::Constant(kNaN);  ///< position in the surface frame S [m]
     Vec2 uv = Vec2::Zero();         ///< surface coordinates of parametric surfaces
+    int chart = 0;                  ///< which of its charts (u, v) belong to, where a surface has several
 };
 
 /** What defines a geodesic (thesis Sec. 3.3.3): start point, unit start direction, arc length, in S. */

@@ -94,7 +94,7 @@ public:
         return value.f / g;
     }
 
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override { return {projectToSurface(p_S), Vec2::Zero()}; }
+    SurfacePoint findSurfacePoint(const Vec3& p_S) const override { return {projectToSurface(p_S)}; }
 
     SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vec3& displacement_S) const override {
         return findSurfacePoint(start.p + displacement_S);  // thesis Eqn. 7.22 to 7.24
@@ -124,7 +124,7 @@ public:
             integrateGeodesic(equations, y, start.length, calcFirstStep(curvature, options.accuracy), options);
         geodesic.converged = geodesic.steps >= 0;
         geodesic.Q = equations.frame;
-        geodesic.endPoint = {geodesic.Q.x, Vec2::Zero()};
+        geodesic.endPoint = {geodesic.Q.x};
         geodesic.length = start.length;
         geodesic.a = y[6], geodesic.aDot = y[7], geodesic.r = y[8], geodesic.rDot = y[9];
         geodesic.hasConjugatePoint = equations.hasConjugatePoint;

@@ -65,6 +65,9 @@ private:
 method, of length zero where the line just touches. @param e_S   direction of the line, in S */
 void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& contact);
 
+/** Takes a touched obstacle out of contact; its clearance is watched on the side where the arc began. */
+void liftContact(ObstacleContact& contact);
+
 /** One-off: a cold start from the problem's hints. */
 PathSolution solvePath(const PathProblem& problem, const PathPose& pose, const PathSolverOptions& options = {});
 

@@ -1,0 +1,154 @@
+#pragma once
+/** Solves scenes cold (static) or step by step with warm starts (moving) and judges the answers against the
+verified ones. Shared by the report program and the tests. */
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "support/scene_file.h"
+#include "tautline/path_kinematics.h"
+#include "tautline/path_solver.h"
+#include "tautline/path_verification.h"
+
+namespace tautline::testing {
+
+struct SceneStep {
+    double t = 0, rate = 0, time_s = 0;
+    PathSolution path;
+};
+
+struct FoundEvent {
+    double time = 0;
+    int obstacle = -1;
+    std::string kind;  ///< "touchdown" or "liftoff"
+};
+
+struct SceneResult {
+    std::vector<SceneStep> steps;
+    std::vector<FoundEvent> events;
+};
+
+/** Witness of an obstacle (thesis Cha. 6): negative once its contact has to switch. */
+inline double calcWitness(const PathSolution& path, int element, double size) {
+    const ObstacleContact& contact = path.contacts[element];
+    return contact.isTouched ? contact.start.length / size
+                             : contact.clearance.distance * contact.clearance.scale - kContactTolerance;
+}
+
+/** Follows a scene through time with warm starts and locates its events. */
+class SceneRunner {
+public:
+    SceneRunner(const Scene& scene, bool withHints, const PathSolverOptions& options = {})
+        : m_scene(scene), m_problem(makeProblem(scene, withHints)), m_solver(options) {}
+
+    const PathProblem& getProblem() const { return m_problem; }
+
+    SceneResult run() {
+        SceneResult result;
+        PathSolution path;
+        for (int k = 0; k < m_scene.steps; ++k) {
+            const double t = m_scene.start + k * m_scene.dt;
+            const PathSolution before = path;
+            const auto start = std::chrono::steady_clock::now();
+            calcPose(m_scene, t, m_pose);
+            m_solver.solve(m_problem, m_pose, path);
+            const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+            calcVelocity(m_scene, t, m_velocity);
+            result.steps.push_back({t, calcLengthRate(path, m_pose, m_velocity), elapsed.count(), path});
+            if (k > 0 && !hasSameContacts(before, path)) locateEvents(before, t - m_scene.dt, t, result.events);
+        }
+        return result;
+    }
+
+private:
+    static bool hasSameContacts(const PathSolution& a, const PathSolution& b) {
+        for (std::size_t e = 0; e < a.contacts.size(); ++e)
+            if (a.contacts[e].isTouched != b.contacts[e].isTouched) return false;
+        return true;
+    }
+
+    PathSolution solveAt(const PathSolution& from, double t) {
+        PathSolution path = from;
+        calcPose(m_scene, t, m_pose);
+        m_solver.solveKeepingContacts(m_problem, m_pose, path);
+        return path;
+    }
+
+    double getSize(int element) const { return m_problem.getElement(element).surface->getSize(); }
+
+    /** First time in (from, to] at which a witness is negative while the contact set of `path` is kept. */
+    double findFirstCrossing(const PathSolution& path, double from, double to, int& element) {
+        const PathSolution atEnd = solveAt(path, to);
+        double first = to;
+        element = -1;
+        for (int e = 1; e + 1 < m_problem.getNumElements(); ++e) {
+            if (!(calcWitness(atEnd, e, getSize(e)) < 0)) continue;
+            double low = from, high = to;
+            while (high - low > 1e-10) {
+                const double middle = 0.5 * (low + high);
+                (calcWitness(solveAt(path, middle), e, getSize(e)) < 0 ? high : low) = middle;
+            }
+            if (element < 0 || high < first) first = high, element = e;
+        }
+        return first;
+    }
+
+    void locateEvents(PathSolution path, double from, double to, std::vector<FoundEvent>& events) {
+        for (int guard = 0; guard < 2 * m_problem.getNumElements(); ++guard) {
+            int element;
+            const double t = findFirstCrossing(path, from, to, element);
+            if (element < 0) return;
+            path = solveAt(path, t);
+            ObstacleContact& contact = path.contacts[element];
+            events.push_back({t, element - 1, contact.isTouched ? "liftoff" : "touchdown"});
+            if (contact.isTouched) {
+                liftContact(contact);
+            } else {
+                touchAtClearance(*m_problem.getElement(element).surface,
+                                 m_pose.X_GE[element].R.transpose() * path.segments[contact.segment].e, contact);
+            }
+            path = solveAt(path, t);
+            from = t;
+        }
+    }
+
+    Scene m_scene;
+    PathProblem m_problem;
+    PathSolver m_solver;
+    PathPose m_pose;
+    std::vector<SpatialVelocity> m_velocity;
+};
+
+/** How an answer stands to the verified one. */
+enum class Verdict { Solved, OtherMinimum, Wrong, NotConverged };
+
+inline const char* getName(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::Solved: return "solved";
+        case Verdict::OtherMinimum: return "other minimum";
+        case Verdict::Wrong: return "wrong";
+        case Verdict::NotConverged: return "not converged";
+    }
+    return "";
+}
+
+/** Judges one answer: length to 1e-9, contact points to 1e-7 of the obstacle's size, flags equal.
+@param withPoints   compare contact points too (static scenes and the first step of moving ones) */
+inline Verdict judge(const Scene& scene, const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                     int step, bool withPoints) {
+    if (path.status == PathStatus::NotConverged) return Verdict::NotConverged;
+    if (path.status != PathStatus::Solved || !verifyPath(problem, pose, path).isMinimum()) return Verdict::Wrong;
+    bool isSame = std::abs(path.length / scene.length[step] - 1) < 1e-9;
+    for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+        const ObstacleContact& contact = path.contacts[i + 1];
+        isSame = isSame && contact.isTouched == scene.contact[step][i];
+        if (!isSame || !withPoints || !contact.isTouched) continue;
+        const double tolerance = 1e-7 * problem.getElement(i + 1).surface->getSize();
+        const Pose& X_GS = pose.X_GE[i + 1];
+        isSame = isSame && (X_GS * contact.geodesic.P.x - scene.segments[i]->P).norm() < tolerance &&
+                 (X_GS * contact.geodesic.Q.x - scene.segments[i]->Q).norm() < tolerance;
+    }
+    return isSame ? Verdict::Solved : Verdict::OtherMinimum;
+}
+
+}  // namespace tautline::testing
