@@ -32,7 +32,9 @@ double calcQuantile(std::vector<double> values, double q) {
     return values[static_cast<std::size_t>(q * (values.size() - 1))];
 }
 
-json toJson(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+json toJson(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
 
 json toJson(const SceneStep& step, const PathPose& pose) {
     json contact = json::array(), segments = json::array();
@@ -46,9 +48,12 @@ json toJson(const SceneStep& step, const PathPose& pose) {
         else
             segments.push_back(nullptr);
     }
-    return {{"status", getName(step.path.status)}, {"length", step.path.length},
-            {"rate", step.rate},                   {"contact", contact},
-            {"segments", segments},                {"iterations", step.path.iterations},
+    return {{"status", getName(step.path.status)},
+            {"length", step.path.length},
+            {"rate", step.rate},
+            {"contact", contact},
+            {"segments", segments},
+            {"iterations", step.path.iterations},
             {"time_s", step.time_s}};
 }
 
@@ -106,8 +111,8 @@ double calcLargestEventError(const Scene& scene, const SceneResult& result) {
 }
 
 void printTallies(const std::map<std::string, Tally>& tallies) {
-    std::cout << std::left << std::setw(24) << "tag" << std::right << std::setw(8) << "scenes" << std::setw(8) << "solved"
-              << std::setw(8) << "other" << std::setw(8) << "wrong" << std::setw(14) << "not converged\n";
+    std::cout << std::left << std::setw(24) << "tag" << std::right << std::setw(8) << "scenes" << std::setw(8)
+              << "solved" << std::setw(8) << "other" << std::setw(8) << "wrong" << std::setw(14) << "not converged\n";
     for (const auto& [name, tally] : tallies)
         std::cout << std::left << std::setw(24) << name << std::right << std::setw(8) << tally.total << std::setw(8)
                   << tally.solved << std::setw(8) << tally.other << std::setw(8) << tally.wrong << std::setw(13)
@@ -151,7 +156,8 @@ int report(const std::vector<Scene>& scenes, bool withHints, json& out) {
         out["scenes"].push_back(toJson(scene, result));
     }
     printTallies(tallies);
-    if (others > 0) std::cout << "other minima no longer than the listed answer: " << shorter << " of " << others << "\n";
+    if (others > 0)
+        std::cout << "other minima no longer than the listed answer: " << shorter << " of " << others << "\n";
     printTimes("cold solve", cold);
     printTimes("warm solve", warm);
     if (!warm.empty())
@@ -165,7 +171,9 @@ int main(int argc, char** argv) {
     CLI::App app{"Solves the wrapping scenes of a folder and compares them with their verified answers"};
     std::string folder, outFile;
     bool noHints = false;
-    app.add_option("FOLDER", folder, "folder with static.json and motion.json")->required()->check(CLI::ExistingDirectory);
+    app.add_option("FOLDER", folder, "folder with static.json and motion.json")
+        ->required()
+        ->check(CLI::ExistingDirectory);
     app.add_option("--out", outFile, "write all answers to this JSON file");
     app.add_flag("--no-hints", noHints, "solve without the scenes' hints");
     CLI11_PARSE(app, argc, argv);

@@ -124,10 +124,14 @@ enum class Verdict { Solved, OtherMinimum, Wrong, NotConverged };
 
 inline const char* getName(Verdict verdict) {
     switch (verdict) {
-        case Verdict::Solved: return "solved";
-        case Verdict::OtherMinimum: return "other minimum";
-        case Verdict::Wrong: return "wrong";
-        case Verdict::NotConverged: return "not converged";
+        case Verdict::Solved:
+            return "solved";
+        case Verdict::OtherMinimum:
+            return "other minimum";
+        case Verdict::Wrong:
+            return "wrong";
+        case Verdict::NotConverged:
+            return "not converged";
     }
     return "";
 }

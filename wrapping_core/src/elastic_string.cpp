@@ -9,8 +9,8 @@ namespace {
 constexpr double kSpacingPerRoom = 0.3;  ///< node spacing over (obstacle size + distance): 20 nodes per turn
 constexpr double kMovePerRoom = 0.3;     ///< farthest move of a node in a sweep: cannot pass a thin obstacle
 constexpr int kMaxNodes = 4000;
-constexpr int kArcGuides = 6;            ///< points taken from each arc of a previous path
-constexpr int kLayingDepth = 6;          ///< bisections of an edge that would cross a surface: 64 pieces
+constexpr int kArcGuides = 6;                   ///< points taken from each arc of a previous path
+constexpr int kLayingDepth = 6;                 ///< bisections of an edge that would cross a surface: 64 pieces
 constexpr double kLayingDepthTolerance = 0.02;  ///< crossings shallower than this (in sizes) are left to the sweeps
 constexpr int kSweepsPerMesh = 20;
 constexpr double kMaxRelaxation = 1.9;
@@ -22,7 +22,7 @@ void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const 
     m_isFixed.clear();
     m_holds.clear();
     m_numSweeps = 0;
-    std::size_t firstOpen = 0;  // holds whose strand has not met its end yet
+    std::size_t firstOpen = 0;          // holds whose strand has not met its end yet
     int lastFixed = 0, lastGuided = 0;  // lastGuided: the first hold whose surface the next edge may cross
     std::vector<Vec3> guides;
     for (int e = 0; e < problem.getNumElements(); ++e) {
@@ -200,7 +200,8 @@ void ElasticString::updatePortions(const PathProblem& problem) {
         if (hold.touches()) after = std::min(after, hold.first);
         const Surface& surface = *problem.getElement(hold.element).surface;
         const auto isInside = [&](int node) {
-            return m_isFixed[node] && surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) < -1e-10 * surface.getSize();
+            return m_isFixed[node] &&
+                   surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) < -1e-10 * surface.getSize();
         };
         hold.isSwitchedOff = isInside(hold.portionBegin) || isInside(hold.portionEnd);
     }

@@ -95,7 +95,7 @@ FrameVariations calcEndVariations(const DarbouxFrame& Q, const Geodesic& geodesi
     const Vec3 dN_B = Q.tauG * Q.t - Q.kappaB * Q.B, dB_B = Q.kappaB * Q.N;
     FrameVariations d;
     d.x << Q.t, a * Q.B, r * Q.B, Q.t;
-    d.N << dN_t, a * dN_B, r * dN_B, dN_t;                               // Eqn. 4.12, 4.29, 4.44, 4.46
+    d.N << dN_t, a * dN_B, r * dN_B, dN_t;  // Eqn. 4.12, 4.29, 4.44, 4.46
     d.B << dB_t, a * dB_B - aDot * Q.t, r * dB_B - rDot * Q.t, dB_t;
     return d;
 }
@@ -150,7 +150,7 @@ GeodesicStart calcCorrectedStart(const Surface& surface, const GeodesicStart& st
     corrected.point =
         surface.calcDisplacedPoint(start.point, correction[0] * P_S.t + correction[1] * P_S.B);  // Eqn. 7.22
     corrected.tangent = std::cos(correction[2]) * P_S.t + std::sin(correction[2]) * P_S.B;       // Eqn. 4.62
-    corrected.length = start.length + correction[3];                                            // Eqn. 4.67
+    corrected.length = start.length + correction[3];                                             // Eqn. 4.67
     return corrected;  // the tangent is made tangent and unit at the new point when it is shot (Eqn. 7.26)
 }
 

@@ -9,9 +9,9 @@
 namespace tautline {
 namespace {
 
-constexpr double kMaxMove = 0.5;    ///< of P and of the length in one step, in sizes of the surface
-constexpr double kMaxTurn = 0.6;    ///< of the start direction in one step [rad]
-constexpr int kMaxHalvings = 6;     ///< of a Newton step that does not lower the error
+constexpr double kMaxMove = 0.5;        ///< of P and of the length in one step, in sizes of the surface
+constexpr double kMaxTurn = 0.6;        ///< of the start direction in one step [rad]
+constexpr int kMaxHalvings = 6;         ///< of a Newton step that does not lower the error
 constexpr double kLiftLength = -1e-12;  ///< arcs shorter than this (in sizes) are lifted
 
 double calcNorm(const std::vector<double>& v) {
@@ -23,15 +23,17 @@ double calcNorm(const std::vector<double>& v) {
 }  // namespace
 
 void PathSolverOptions::validate() const {
-    require(pathErrorTolerance > 0 && pathErrorTolerance <= 0.1, "path solver: pathErrorTolerance must be in (0, 0.1], but is ",
-            pathErrorTolerance);
+    require(pathErrorTolerance > 0 && pathErrorTolerance <= 0.1,
+            "path solver: pathErrorTolerance must be in (0, 0.1], but is ", pathErrorTolerance);
     require(maxIterations >= 1, "path solver: maxIterations must be at least 1, but is ", maxIterations);
-    require(geodesics.accuracy > 0 && geodesics.accuracy <= 0.1, "path solver: geodesic accuracy must be in (0, 0.1], but is ",
-            geodesics.accuracy);
+    require(geodesics.accuracy > 0 && geodesics.accuracy <= 0.1,
+            "path solver: geodesic accuracy must be in (0, 0.1], but is ", geodesics.accuracy);
     require(geodesics.maxSteps >= 1, "path solver: geodesic maxSteps must be at least 1, but is ", geodesics.maxSteps);
 }
 
-PathSolver::PathSolver(const PathSolverOptions& options) : m_options(options) { options.validate(); }
+PathSolver::PathSolver(const PathSolverOptions& options) : m_options(options) {
+    options.validate();
+}
 
 void PathSolver::solve(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     problem.validate();
@@ -189,9 +191,8 @@ void PathSolver::updateClearances(const PathProblem& problem, const PathPose& po
         const StraightSegment& in = path.segments[segment];
         const StraightSegment& out = contact.isTouched ? path.segments[segment + 1] : in;
         const auto isInside = [&](int end) {
-            return problem.getElement(end).isPoint() &&
-                   surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[end].p), N_S) <
-                       kContactTolerance * surface.getSize();
+            return problem.getElement(end).isPoint() && surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[end].p),
+                                                                           N_S) < kContactTolerance * surface.getSize();
         };
         contact.isSwitchedOff = isInside(in.fromElement) || isInside(out.toElement);
         if (contact.isTouched) continue;

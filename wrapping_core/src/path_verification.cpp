@@ -66,8 +66,7 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
             while (path.segments[segmentIn].toElement != e) ++segmentIn;
             condition = verifyContact(*element.surface, pose.X_GE[e], contact, path.segments[segmentIn],
                                       path.segments[segmentIn + 1]);
-        } else if (!contact.isSwitchedOff &&
-                   contact.clearance.distance * contact.clearance.scale < kContactTolerance) {
+        } else if (!contact.isSwitchedOff && contact.clearance.distance * contact.clearance.scale < kContactTolerance) {
             condition = Condition::Penetration;
         }
         if (condition != Condition::None) return {condition, e};
@@ -79,13 +78,20 @@ std::string describe(const PathVerification& verification, const PathProblem& pr
     if (verification.isMinimum()) return "a local minimum";
     const std::string name = "'" + problem.getElement(verification.element).name + "'";
     switch (verification.condition) {
-        case Condition::ReversedTangent: return "the path turns back at " + name;
-        case Condition::NegativeLength: return "the arc on " + name + " has negative length";
-        case Condition::PullsOutward: return "the arc on " + name + " would lift inside";
-        case Condition::ConjugatePoint: return "the arc on " + name + " goes beyond its conjugate point";
-        case Condition::Penetration: return "a straight segment passes below the surface of " + name;
-        case Condition::OutsideDomain: return "the arc on " + name + " leaves the domain of its surface";
-        case Condition::None: break;
+        case Condition::ReversedTangent:
+            return "the path turns back at " + name;
+        case Condition::NegativeLength:
+            return "the arc on " + name + " has negative length";
+        case Condition::PullsOutward:
+            return "the arc on " + name + " would lift inside";
+        case Condition::ConjugatePoint:
+            return "the arc on " + name + " goes beyond its conjugate point";
+        case Condition::Penetration:
+            return "a straight segment passes below the surface of " + name;
+        case Condition::OutsideDomain:
+            return "the arc on " + name + " leaves the domain of its surface";
+        case Condition::None:
+            break;
     }
     return "a local minimum";
 }

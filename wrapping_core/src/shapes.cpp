@@ -28,9 +28,13 @@ Vec3 makeOrthogonalUnit(const Vec3& e, const Vec3& wish) {
 
 }  // namespace
 
-Sphere::Sphere(double radius) : m_radius(radius) { requireLength(radius, "sphere: radius"); }
+Sphere::Sphere(double radius) : m_radius(radius) {
+    requireLength(radius, "sphere: radius");
+}
 
-std::string Sphere::getDescription() const { return describe("sphere(radius=", m_radius, ")"); }
+std::string Sphere::getDescription() const {
+    return describe("sphere(radius=", m_radius, ")");
+}
 
 double Sphere::calcHeight(const Vec3& p_S, Vec3& N_S) const {
     const double distance = p_S.norm();
@@ -68,9 +72,13 @@ void Sphere::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& 
     clearance = {{m_radius * N}, N, s, D.dot(N) - m_radius, 1 / m_radius, true};
 }
 
-Cylinder::Cylinder(double radius) : m_radius(radius) { requireLength(radius, "cylinder: radius"); }
+Cylinder::Cylinder(double radius) : m_radius(radius) {
+    requireLength(radius, "cylinder: radius");
+}
 
-std::string Cylinder::getDescription() const { return describe("cylinder(radius=", m_radius, ")"); }
+std::string Cylinder::getDescription() const {
+    return describe("cylinder(radius=", m_radius, ")");
+}
 
 double Cylinder::calcHeight(const Vec3& p_S, Vec3& N_S) const {
     const double rho = std::hypot(p_S.x(), p_S.y());
@@ -143,7 +151,8 @@ double Ellipsoid::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double lengt
 Torus::Torus(double ringRadius, double tubeRadius) : m_ringRadius(ringRadius), m_tubeRadius(tubeRadius) {
     requireLength(ringRadius, "torus: ring radius");
     requireLength(tubeRadius, "torus: tube radius");
-    require(tubeRadius < ringRadius, "torus: tube radius ", tubeRadius, " must be less than the ring radius ", ringRadius);
+    require(tubeRadius < ringRadius, "torus: tube radius ", tubeRadius, " must be less than the ring radius ",
+            ringRadius);
 }
 
 std::string Torus::getDescription() const {

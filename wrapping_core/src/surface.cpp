@@ -35,7 +35,7 @@ void Surface::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance&
         C = calcDisplacedPoint(C, step[0] * frame.t + step[1] * frame.B);
         if (step.norm() > tolerance) continue;
         const DarbouxFrame end = calcFrame(C, e_S);
-        if (!(end.N.dot(clearance.N) > 0)) return;  // slid to another critical point
+        if (!(end.N.dot(clearance.N) > 0)) return;     // slid to another critical point
         const double distance = end.N.dot(A_S - C.p);  // e . N = 0: the same from any point of the line
         const double s0 = e_S.dot(C.p - A_S);
         clearance = {C, end.N, s0, distance, std::max(std::abs(end.kappaN), 1 / size), true};

@@ -21,10 +21,8 @@ void stepDormandPrince853(const Derivative& derivative, const Eigen::Matrix<doub
     using State = Eigen::Matrix<double, n, 1>;
     State k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12;
     derivative(State(y + h * (5.26001519587677318785587544488e-2 * k1)), k2);
-    derivative(State(y + h * (1.97250569845378994544595329183e-2 * k1 + 5.91751709536136983633785987549e-2 * k2)),
-               k3);
-    derivative(State(y + h * (2.95875854768068491816892993775e-2 * k1 + 8.87627564304205475450678981324e-2 * k3)),
-               k4);
+    derivative(State(y + h * (1.97250569845378994544595329183e-2 * k1 + 5.91751709536136983633785987549e-2 * k2)), k3);
+    derivative(State(y + h * (2.95875854768068491816892993775e-2 * k1 + 8.87627564304205475450678981324e-2 * k3)), k4);
     derivative(State(y + h * (2.41365134159266685502369798665e-1 * k1 - 8.84549479328286085344864962717e-1 * k3 +
                               9.24834003261792003115737966543e-1 * k4)),
                k5);

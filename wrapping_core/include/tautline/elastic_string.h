@@ -19,7 +19,8 @@ public:
     void relax(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance, int maxSweeps);
 
     /** Contact set, geodesic starts (touched) and switched-off obstacles as the string shows them. */
-    void extractContacts(const PathProblem& problem, const PathPose& pose, std::vector<ObstacleContact>& contacts) const;
+    void extractContacts(const PathProblem& problem, const PathPose& pose,
+                         std::vector<ObstacleContact>& contacts) const;
 
     const std::vector<Vec3>& getNodes() const { return m_nodes; }
     int getNumSweeps() const { return m_numSweeps; }
@@ -29,8 +30,8 @@ private:
     struct Hold {
         int element = -1;
         Pose X_GS;
-        int first = -1, last = -1;          ///< contact nodes of this sweep
-        int from = -1, to = -1;             ///< fixed nodes that bound its strand
+        int first = -1, last = -1;             ///< contact nodes of this sweep
+        int from = -1, to = -1;                ///< fixed nodes that bound its strand
         int portionBegin = 0, portionEnd = 0;  ///< nodes on which it may act, inclusive
         bool isSwitchedOff = false;
         bool touches() const { return first >= 0; }

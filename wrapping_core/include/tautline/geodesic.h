@@ -26,10 +26,10 @@ struct Geodesic {
     DarbouxFrame P, Q;  ///< in S
     SurfacePoint endPoint;
     double length = 0;
-    double a = 1, aDot = 0;  ///< dbeta_Q/dbeta_P and its arc derivative
-    double r = 0, rDot = 1;  ///< dbeta_Q/dtheta [m] and its arc derivative
-    int steps = 0;           ///< accepted integration steps; 0 for closed forms
-    bool converged = true;   ///< false: the integrator gave up, Q is where it stopped
+    double a = 1, aDot = 0;          ///< dbeta_Q/dbeta_P and its arc derivative
+    double r = 0, rDot = 1;          ///< dbeta_Q/dtheta [m] and its arc derivative
+    int steps = 0;                   ///< accepted integration steps; 0 for closed forms
+    bool converged = true;           ///< false: the integrator gave up, Q is where it stopped
     bool hasConjugatePoint = false;  ///< r has a zero inside the arc: no longer a shortest curve
     double maxKappaN = -kInfinity;   ///< largest kappaN met at the integrator's steps
 };

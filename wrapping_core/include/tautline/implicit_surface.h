@@ -104,8 +104,7 @@ public:
         return detail::calcImplicitFrame(derived().calcImplicit(point.p), point.p, direction_S);
     }
 
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options,
-                       Geodesic& geodesic) const override {
+    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
         shootByIntegration(start, options, geodesic);
     }
 
@@ -141,7 +140,8 @@ protected:
         for (int i = 0; i < kMaxIterations; ++i) {
             Vec3 N;
             const double height = calcHeight(p, N);
-            if (!(std::abs(height) > tolerance) || (std::abs(height) < 1e-14 * getSize() && std::abs(height) >= previous))
+            if (!(std::abs(height) > tolerance) ||
+                (std::abs(height) < 1e-14 * getSize() && std::abs(height) >= previous))
                 break;
             previous = std::abs(height);
             p -= std::max(height, -getSize()) * N;

@@ -19,7 +19,7 @@ inline constexpr int kPathBandwidth = 5;  ///< kl = ku of the path-error Jacobia
 /** A touched obstacle of a chain. */
 struct ChainContact {
     int element = -1;
-    int segmentIn = -1;  ///< the segment that ends at P; the next one, segmentIn + 1, begins at Q
+    int segmentIn = -1;   ///< the segment that ends at P; the next one, segmentIn + 1, begins at Q
     GeodesicStart start;  ///< in S
     Geodesic geodesic;    ///< in S
     DarbouxFrame P, Q;    ///< in ground

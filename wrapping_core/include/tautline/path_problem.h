@@ -23,7 +23,8 @@ public:
     int addPoint(std::string name);
     /** Appends an obstacle. @param hint_S   finite, or none. InvalidInput if surface is null.
     @return its element index */
-    int addObstacle(std::string name, std::shared_ptr<const Surface> surface, std::optional<Vec3> hint_S = std::nullopt);
+    int addObstacle(std::string name, std::shared_ptr<const Surface> surface,
+                    std::optional<Vec3> hint_S = std::nullopt);
 
     void setHint(int element, std::optional<Vec3> hint_S);
 

@@ -42,7 +42,8 @@ private:
     enum class Outcome { Converged, Failed };
 
     bool findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    bool findColdPath(const PathProblem& problem, const PathPose& pose, const PathSolution* previous, PathSolution& path);
+    bool findColdPath(const PathProblem& problem, const PathPose& pose, const PathSolution* previous,
+                      PathSolution& path);
     bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     Outcome iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool calcNewtonStep();

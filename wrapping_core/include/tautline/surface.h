@@ -9,12 +9,12 @@ namespace tautline {
 /** Where a straight line comes nearest to a surface, or dips deepest below it (thesis Sec. 6.1, 7.6):
 D on the line, C on the surface, D - C orthogonal to both. */
 struct LineClearance {
-    SurfacePoint C;                       ///< in S
-    Vec3 N = Vec3::Constant(kNaN);        ///< outward normal at C, in S: the side that is watched
-    double lineCoordinate = kNaN;         ///< of D, from the segment's start [m]
-    double distance = kNaN;               ///< d = (D - C) . N [m], negative: the line is below the surface
-    double scale = 1;                     ///< max(|kappa_n|, 1/size) at C: d * scale is compared with d_tol
-    bool found = false;                   ///< false: no critical point was found from the start given
+    SurfacePoint C;                 ///< in S
+    Vec3 N = Vec3::Constant(kNaN);  ///< outward normal at C, in S: the side that is watched
+    double lineCoordinate = kNaN;   ///< of D, from the segment's start [m]
+    double distance = kNaN;         ///< d = (D - C) . N [m], negative: the line is below the surface
+    double scale = 1;               ///< max(|kappa_n|, 1/size) at C: d * scale is compared with d_tol
+    bool found = false;             ///< false: no critical point was found from the start given
 };
 
 /** A smooth surface in its own frame S, outward normal N: what a string can wrap over.
@@ -68,7 +68,7 @@ public:
 
 /** Points along a geodesic, ends included, by shooting from each to the next. Needs count >= 2.
 @param points_S   resized to `count` */
-void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const GeodesicOptions& options,
-                    int count, std::vector<Vec3>& points_S);
+void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const GeodesicOptions& options, int count,
+                    std::vector<Vec3>& points_S);
 
 }  // namespace tautline
