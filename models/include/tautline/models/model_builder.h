@@ -1,0 +1,82 @@
+#pragma once
+#include <Simbody.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tautline/models/model_description.h"
+#include "tautline/models/model_error.h"
+
+namespace tautline::models {
+
+/**
+ * Where the bodies and coordinates of a model stand in a SimbodyMatterSubsystem. A light handle to
+ * copy; the matter subsystem must outlive it. Unknown names throw ModelError.
+ */
+class BuiltModel {
+public:
+    struct CoordinateSlot {
+        SimTK::MobilizedBodyIndex body;
+        SimTK::MobilizerQIndex q;
+        SimTK::MobilizerUIndex u;
+        double defaultValue = 0.0;
+        double defaultSpeed = 0.0;
+        std::array<double, 2> range{};
+        bool clamped = false;
+        bool locked = false;
+        /** Of the constraint that holds a locked coordinate. */
+        SimTK::ConstraintIndex lock;
+    };
+
+    const SimTK::SimbodyMatterSubsystem& getMatter() const { return *m_matter; }
+    /** `ground` is the ground. */
+    SimTK::MobilizedBodyIndex getBodyIndex(const std::string& name) const;
+    const SimTK::MobilizedBody& getBody(const std::string& name) const;
+    const CoordinateSlot& getCoordinateSlot(const std::string& name) const;
+    /** In the order of the file. */
+    const std::vector<std::string>& getCoordinateNames() const { return m_coordinateNames; }
+
+    /** Sets all coordinates and speeds to their defaults, then lets the couplers have their way. */
+    void setDefaultPose(SimTK::State& state) const;
+    /** Does not clip to the range, clamped or not. A locked coordinate stays locked at the value.
+     */
+    void setCoordinate(SimTK::State& state, const std::string& name, double value) const;
+    double getCoordinate(const SimTK::State& state, const std::string& name) const;
+    void setCoordinateSpeed(SimTK::State& state, const std::string& name, double speed) const;
+    double getCoordinateSpeed(const SimTK::State& state, const std::string& name) const;
+    /** Gives every coupled coordinate the value and speed that its coupler asks for. */
+    void applyCouplers(SimTK::State& state) const;
+
+    /** The ground coordinates of a point fixed in a body. Needs Stage::Position. */
+    SimTK::Vec3 calcStationLocation(const SimTK::State& state, const std::string& body,
+                                    const SimTK::Vec3& station_B) const;
+
+private:
+    friend class MultibodyAssembly;
+
+    SimTK::SimbodyMatterSubsystem* m_matter = nullptr;
+    std::map<std::string, SimTK::MobilizedBodyIndex> m_bodies;
+    std::map<std::string, CoordinateSlot> m_coordinates;
+    std::vector<std::string> m_coordinateNames;
+    std::vector<CoordinateCoupler> m_couplers;
+};
+
+/**
+ * Adds the bodies, joints, locks, prescribed motions and constraints of a model to a matter
+ * subsystem. Every coordinate becomes a q whose u is its derivative. Forces are not added. The
+ * defaults of the model are not those of the system: call BuiltModel::setDefaultPose().
+ *
+ * @throws ModelError, before anything is added, if bodies are not joined to the ground in a tree,
+ * if two turning or two shifting axes of a joint are parallel, or if a joint moves no mass.
+ */
+BuiltModel buildMultibody(const ModelDescription& model, SimTK::SimbodyMatterSubsystem& matter);
+
+/** Adds the model's gravity. */
+SimTK::Force::Gravity addGravity(const ModelDescription& model, SimTK::GeneralForceSubsystem& forces,
+                                 const SimTK::SimbodyMatterSubsystem& matter);
+
+SimTK::Transform toTransform(const RigidOffset& offset);
+SimTK::Vec3 toVec3(const Triple& triple);
+
+}  // namespace tautline::models

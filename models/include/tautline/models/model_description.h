@@ -1,0 +1,219 @@
+#pragma once
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tautline/models/rigid_offset.h"
+#include "tautline/models/scalar_function.h"
+
+/**
+ * @file
+ * A musculoskeletal model as plain data: what a model file says, without a multibody system.
+ *
+ * Units are SI and radians. Bodies are named; "ground" is the fixed body and is not in the list of
+ * bodies. Offset frames are already resolved: whatever stood in one is given in its base body.
+ * `line` is the line of the element in the source file.
+ */
+namespace tautline::models {
+
+inline constexpr const char* groundName = "ground";
+
+struct Body {
+    std::string name;
+    double mass = 0.0;
+    Triple massCenter{};
+    /** About the mass center: xx, yy, zz, xy, xz, yz. */
+    std::array<double, 6> inertia{};
+    int line = 0;
+};
+
+struct Coordinate {
+    std::string name;
+    double defaultValue = 0.0;
+    double defaultSpeed = 0.0;
+    /** Unbounded where the file gives none. */
+    std::array<double, 2> range{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    bool clamped = false;
+    bool locked = false;
+    /** Motion as a function of time; present only if the model enforces it. */
+    std::optional<ScalarFunction> prescribedMotion;
+    int line = 0;
+};
+
+/** One of the six axes of a custom joint: a turn about it or a shift along it, by function(q). */
+struct TransformAxis {
+    /** Empty if no coordinate drives the axis: then the function's value at 0 holds always. */
+    std::string coordinate;
+    Triple axis{};
+    ScalarFunction function;
+    int line = 0;
+};
+
+enum class JointType { Weld, Pin, Slider, Universal, Ball, Gimbal, Planar, Free, Custom };
+
+/** X(parent -> child) = parentOffset * X_joint(q) * inverse(childOffset). */
+struct Joint {
+    std::string name;
+    JointType type = JointType::Weld;
+    std::string parentBody;
+    RigidOffset parentOffset;
+    std::string childBody;
+    RigidOffset childOffset;
+    std::vector<Coordinate> coordinates;
+    /** Custom joints only: three turns, each carrying the next, then three shifts. */
+    std::array<TransformAxis, 6> axes;
+    int line = 0;
+};
+
+/** dependent = scaleFactor * function(independent). */
+struct CoordinateCoupler {
+    std::string name;
+    std::string independentCoordinate;
+    std::string dependentCoordinate;
+    ScalarFunction function;
+    double scaleFactor = 1.0;
+    int line = 0;
+};
+
+/** A point of one body coincides with a point of another. */
+struct PointConstraint {
+    std::string name;
+    std::string body1;
+    Triple location1{};
+    std::string body2;
+    Triple location2{};
+    int line = 0;
+};
+
+using ModelConstraint = std::variant<CoordinateCoupler, PointConstraint>;
+
+/** Axis z, centred. */
+struct CylinderShape {
+    double radius = 0.0;
+    double length = 0.0;
+};
+struct SphereShape {
+    double radius = 0.0;
+};
+struct EllipsoidShape {
+    Triple semiAxes{};
+};
+/** Ring in the xy plane; the path goes through the hole. */
+struct TorusShape {
+    double tubeRadius = 0.0;
+    double ringRadius = 0.0;
+};
+
+/** The side of a wrap object, in its own frame, on which a path must pass. */
+enum class Quadrant { All, PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
+
+struct WrapObject {
+    std::string name;
+    std::string body;
+    /** Pose of the object's frame W in the body. */
+    RigidOffset X_BW;
+    Quadrant quadrant = Quadrant::All;
+    bool active = true;
+    std::variant<CylinderShape, SphereShape, EllipsoidShape, TorusShape> shape;
+    int line = 0;
+};
+
+struct FixedLocation {};
+/** The point belongs to the path only while the coordinate is within the range. */
+struct ConditionalLocation {
+    std::string coordinate;
+    std::array<double, 2> range{};
+};
+/** Components in a frame F of the body; the coordinate is clipped to its range first. */
+struct MovingLocation {
+    std::string coordinate;
+    std::array<ScalarFunction, 3> location_F;
+    RigidOffset X_BF;
+};
+
+struct PathPoint {
+    std::string name;
+    std::string body;
+    /** In the body; not used by moving points. */
+    Triple location{};
+    std::variant<FixedLocation, ConditionalLocation, MovingLocation> kind;
+    int line = 0;
+};
+
+enum class WrapMethod { Hybrid, Midpoint, Axial };
+
+struct PathWrap {
+    std::string name;
+    /** Index into ModelDescription::wrapObjects. */
+    std::size_t wrapObject = 0;
+    WrapMethod method = WrapMethod::Hybrid;
+    /** First and last point between which the path may wrap, counted from 1; -1 is the end. */
+    std::array<int, 2> range{-1, -1};
+    int line = 0;
+};
+
+struct MusclePath {
+    std::vector<PathPoint> points;
+    std::vector<PathWrap> wraps;
+    int line = 0;
+};
+
+struct Muscle {
+    std::string name;
+    /** The element's type in the file, for example Thelen2003Muscle. */
+    std::string type;
+    bool appliesForce = true;
+    double maxIsometricForce = 0.0;
+    double optimalFiberLength = 0.0;
+    double tendonSlackLength = 0.0;
+    double pennationAngleAtOptimal = 0.0;
+    /** In optimal fiber lengths per second. */
+    double maxContractionVelocity = 10.0;
+    bool ignoresTendonCompliance = false;
+    bool ignoresActivationDynamics = false;
+    /** Absent where the file gives none: the muscle model knows its own. */
+    std::optional<double> activationTimeConstant;
+    std::optional<double> deactivationTimeConstant;
+    std::optional<double> tendonStrainAtMaxForce;  ///< FmaxTendonStrain
+    std::optional<double> fiberStrainAtMaxForce;   ///< FmaxMuscleStrain
+    std::optional<double> activeShape;             ///< KshapeActive
+    std::optional<double> passiveShape;            ///< KshapePassive
+    std::optional<double> velocityShape;           ///< Af
+    std::optional<double> maxLengtheningForce;     ///< Flen
+    MusclePath path;
+    int line = 0;
+};
+
+/** Elements of one type in owners of one type that were read over, and why. */
+struct SkippedElements {
+    std::string element;
+    std::string owner;
+    std::string reason;
+    int firstLine = 0;
+    int count = 0;
+};
+
+struct ModelDescription {
+    std::string fileName;
+    std::string name;
+    int documentVersion = 0;
+    Triple gravity{};
+    std::vector<Body> bodies;
+    std::vector<Joint> joints;
+    /** Those that the model enforces. */
+    std::vector<ModelConstraint> constraints;
+    std::vector<WrapObject> wrapObjects;
+    std::vector<Muscle> muscles;
+    std::vector<SkippedElements> skipped;
+};
+
+/** The body, joint, coordinate, muscle or wrap object of a name; null if there is none. */
+const Body* findBody(const ModelDescription& model, const std::string& name);
+const Coordinate* findCoordinate(const ModelDescription& model, const std::string& name);
+const Muscle* findMuscle(const ModelDescription& model, const std::string& name);
+const WrapObject* findWrapObject(const ModelDescription& model, const std::string& name);
+
+}  // namespace tautline::models

@@ -1,0 +1,82 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tautline/models/model_description.h"
+#include "xml_source.h"
+
+namespace tautline::models {
+
+/** What all readers share: the text, and the description under construction. */
+struct Reading {
+    const XmlSource& source;
+    ModelDescription& model;
+};
+
+/**
+ * One XML element being read. Every child that is asked for counts as known; refuseUnknown() then
+ * refuses the children that nobody asked for, so nothing can be overlooked in silence. Each getter
+ * refuses a missing, malformed or non-finite value with the line, the owner and the value.
+ */
+class Element {
+public:
+    Element(Reading& reading, pugi::xml_node node) : m_reading(&reading), m_node(node) {}
+
+    explicit operator bool() const { return static_cast<bool>(m_node); }
+    Reading& updReading() const { return *m_reading; }
+    std::string getTag() const { return m_node.name(); }
+    /** The name attribute, maybe empty. */
+    std::string getName() const { return m_node.attribute("name").value(); }
+    std::string getRequiredName() const;
+    int findLine() const { return m_reading->source.findLine(m_node); }
+    /** Tag and name, for messages: Body 'humerus'. */
+    std::string describe() const;
+    /** The same for a field, with its owner: location of PathPoint 'origin'. */
+    std::string describeField() const;
+    /** The text without surrounding blanks. */
+    std::string getText() const;
+    [[noreturn]] void fail(const std::string& what) const;
+
+    /** The only child of a tag, or an element that is false. Two of them are refused. */
+    Element find(const std::string& tag);
+    Element require(const std::string& tag);
+    /** The first of several spellings of one child. */
+    Element findAny(const std::vector<std::string>& tags);
+    /** All child elements. */
+    std::vector<Element> getChildren() const;
+    /** The members of a set: the children of <objects>, and of the set itself if it has none. */
+    std::vector<Element> getSetMembers();
+
+    double getNumber() const;
+    std::vector<double> getNumbers() const;
+    std::vector<double> getNumbers(std::size_t count) const;
+    Triple getTriple() const;
+    bool getBool() const;
+
+    double requireNumber(const std::string& tag) { return require(tag).getNumber(); }
+    double getNumberOr(const std::string& tag, double fallback);
+    std::optional<double> findNumber(const std::string& tag);
+    Triple getTripleOr(const std::string& tag, const Triple& fallback);
+    bool getBoolOr(const std::string& tag, bool fallback);
+    /** A number that must be greater than zero. */
+    double requirePositive(const std::string& tag);
+
+    /** Lists the children of these tags as skipped. */
+    void skip(const std::vector<std::string>& tags, const std::string& reason);
+    /** Lists this element as skipped. */
+    void skipThis(const std::string& owner, const std::string& reason) const;
+    void refuseUnknown() const;
+    void acceptTag(const std::string& tag) { m_known.insert(tag); }
+
+private:
+    double parseNumber(const std::string& word) const;
+
+    Reading* m_reading;
+    pugi::xml_node m_node;
+    std::set<std::string> m_known;
+};
+
+}  // namespace tautline::models

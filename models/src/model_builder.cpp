@@ -1,0 +1,202 @@
+#include "tautline/models/model_builder.h"
+
+#include "multibody_plan.h"
+
+namespace tautline::models {
+
+namespace {
+
+using SimTK::MobilizedBody;
+
+/** A ScalarFunction of the first argument, or of time. */
+class SimtkFunction : public SimTK::Function {
+public:
+    explicit SimtkFunction(ScalarFunction function) : m_function(std::move(function)) {}
+
+    SimTK::Real calcValue(const SimTK::Vector& x) const override { return m_function.calcValue(x[0]); }
+    SimTK::Real calcDerivative(const SimTK::Array_<int>& order, const SimTK::Vector& x) const override {
+        return m_function.calcDerivativeOfOrder(static_cast<int>(order.size()), x[0]);
+    }
+    int getArgumentSize() const override { return 1; }
+    int getMaxDerivativeOrder() const override { return 2; }
+    SimtkFunction* clone() const override { return new SimtkFunction(*this); }
+
+private:
+    ScalarFunction m_function;
+};
+
+/** scale * f(independent) - dependent, to be held at zero. */
+class CouplerFunction : public SimTK::Function {
+public:
+    explicit CouplerFunction(const CoordinateCoupler& coupler)
+        : m_function(coupler.function.scaledBy(coupler.scaleFactor)) {}
+
+    SimTK::Real calcValue(const SimTK::Vector& x) const override { return m_function.calcValue(x[0]) - x[1]; }
+    SimTK::Real calcDerivative(const SimTK::Array_<int>& components, const SimTK::Vector& x) const override {
+        bool byIndependentOnly = true;
+        for (int component : components) byIndependentOnly = byIndependentOnly && component == 0;
+        const int order = static_cast<int>(components.size());
+        if (byIndependentOnly) return m_function.calcDerivativeOfOrder(order, x[0]);
+        return order == 1 ? -1.0 : 0.0;
+    }
+    int getArgumentSize() const override { return 2; }
+    int getMaxDerivativeOrder() const override { return 2; }
+    CouplerFunction* clone() const override { return new CouplerFunction(*this); }
+
+private:
+    ScalarFunction m_function;
+};
+
+SimTK::MassProperties makeMassProperties(const Body& body) {
+    const SimTK::Vec3 center = toVec3(body.massCenter);
+    const auto& I = body.inertia;
+    const SimTK::Inertia central(I[0], I[1], I[2], I[3], I[4], I[5]);
+    return {body.mass, center, central.shiftFromMassCenter(center, body.mass)};
+}
+
+MobilizedBody addFunctionBased(const PlannedJoint& planned, MobilizedBody& inboard,
+                               const SimTK::Transform& inboardFrame, const SimTK::Body& body,
+                               const SimTK::Transform& outboardFrame, MobilizedBody::Direction direction) {
+    SimTK::Array_<const SimTK::Function*> functions;
+    SimTK::Array_<SimTK::Array_<int>> arguments;
+    SimTK::Array_<SimTK::Vec3> axes;
+    for (std::size_t i = 0; i < 6; ++i) {
+        const ScalarFunction& function = planned.axes.functions[i];
+        const int coordinate = planned.axes.coordinates[i];
+        axes.push_back(planned.axes.axes[i]);
+        arguments.push_back(SimTK::Array_<int>());
+        if (coordinate < 0) {
+            functions.push_back(new SimTK::Function::Constant(function.calcValue(0.0), 0));
+        } else {
+            arguments.back().push_back(coordinate);
+            functions.push_back(new SimtkFunction(function));
+        }
+    }
+    const auto mobilities = static_cast<int>(planned.joint->coordinates.size());
+    return MobilizedBody::FunctionBased(inboard, inboardFrame, body, outboardFrame, mobilities, functions, arguments,
+                                        axes, direction);
+}
+
+MobilizedBody addMobilizer(const PlannedJoint& planned, MobilizedBody& inboard) {
+    const Joint& joint = *planned.joint;
+    const SimTK::Body::Rigid body(makeMassProperties(*planned.outboardBody));
+    SimTK::Transform X_PF = toTransform(joint.parentOffset);
+    SimTK::Transform X_CM = toTransform(joint.childOffset);
+    if (joint.coordinates.empty()) X_PF = X_PF * calcFixedTransform(planned.axes);
+    const SimTK::Transform& inboardFrame = planned.reversed ? X_CM : X_PF;
+    const SimTK::Transform& outboardFrame = planned.reversed ? X_PF : X_CM;
+    const auto direction = planned.reversed ? MobilizedBody::Reverse : MobilizedBody::Forward;
+    if (joint.coordinates.empty()) {
+        return MobilizedBody::Weld(inboard, inboardFrame, body, outboardFrame);
+    }
+    if (joint.type == JointType::Pin) {
+        return MobilizedBody::Pin(inboard, inboardFrame, body, outboardFrame, direction);
+    }
+    if (joint.type == JointType::Slider) {
+        return MobilizedBody::Slider(inboard, inboardFrame, body, outboardFrame, direction);
+    }
+    return addFunctionBased(planned, inboard, inboardFrame, body, outboardFrame, direction);
+}
+
+}  // namespace
+
+/** Carries out a plan; the steps that fill a BuiltModel. */
+class MultibodyAssembly {
+public:
+    explicit MultibodyAssembly(SimTK::SimbodyMatterSubsystem& matter) : m_matter(matter) {
+        m_built.m_matter = &matter;
+        m_built.m_bodies[groundName] = matter.getGround().getMobilizedBodyIndex();
+    }
+
+    void addJoint(const PlannedJoint& planned) {
+        const Joint& joint = *planned.joint;
+        const std::string& inboardName = planned.reversed ? joint.childBody : joint.parentBody;
+        MobilizedBody& inboard = m_matter.updMobilizedBody(m_built.m_bodies.at(inboardName));
+        const SimTK::MobilizedBodyIndex index = addMobilizer(planned, inboard).getMobilizedBodyIndex();
+        m_built.m_bodies[planned.outboardBody->name] = index;
+        for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
+            addCoordinate(joint.coordinates[i], index, static_cast<int>(i));
+        }
+    }
+
+    void addConstraint(const CoordinateCoupler& coupler) {
+        SimTK::Array_<SimTK::MobilizedBodyIndex> bodies;
+        SimTK::Array_<SimTK::MobilizerQIndex> coordinates;
+        for (const auto& name : {coupler.independentCoordinate, coupler.dependentCoordinate}) {
+            const auto& slot = m_built.getCoordinateSlot(name);
+            bodies.push_back(slot.body);
+            coordinates.push_back(slot.q);
+        }
+        SimTK::Constraint::CoordinateCoupler(m_matter, new CouplerFunction(coupler), bodies, coordinates);
+        m_built.m_couplers.push_back(coupler);
+    }
+
+    void addConstraint(const PointConstraint& points) {
+        MobilizedBody& body1 = m_matter.updMobilizedBody(m_built.getBodyIndex(points.body1));
+        MobilizedBody& body2 = m_matter.updMobilizedBody(m_built.getBodyIndex(points.body2));
+        SimTK::Constraint::Ball(body1, toVec3(points.location1), body2, toVec3(points.location2));
+    }
+
+    /** The names in the order of the file, not of the tree. */
+    BuiltModel finish(const ModelDescription& model) {
+        for (const Joint& joint : model.joints) {
+            for (const Coordinate& coordinate : joint.coordinates) {
+                m_built.m_coordinateNames.push_back(coordinate.name);
+            }
+        }
+        return m_built;
+    }
+
+private:
+    void addCoordinate(const Coordinate& coordinate, SimTK::MobilizedBodyIndex body, int index) {
+        BuiltModel::CoordinateSlot slot;
+        slot.body = body;
+        slot.q = SimTK::MobilizerQIndex(index);
+        slot.u = SimTK::MobilizerUIndex(index);
+        slot.defaultValue = coordinate.defaultValue;
+        slot.defaultSpeed = coordinate.locked ? 0.0 : coordinate.defaultSpeed;
+        slot.range = coordinate.range;
+        slot.clamped = coordinate.clamped;
+        slot.locked = coordinate.locked;
+        if (coordinate.locked) {
+            // A mobilizer can only be locked as a whole; a coordinate by a constraint.
+            SimTK::Constraint::ConstantCoordinate lock(m_matter.updMobilizedBody(body), slot.q,
+                                                       coordinate.defaultValue);
+            slot.lock = lock.getConstraintIndex();
+        } else if (coordinate.prescribedMotion) {
+            SimTK::Constraint::PrescribedMotion(m_matter, new SimtkFunction(*coordinate.prescribedMotion), body,
+                                                slot.q);
+        }
+        m_built.m_coordinates[coordinate.name] = slot;
+    }
+
+    SimTK::SimbodyMatterSubsystem& m_matter;
+    BuiltModel m_built;
+};
+
+BuiltModel buildMultibody(const ModelDescription& model, SimTK::SimbodyMatterSubsystem& matter) {
+    const std::vector<PlannedJoint> plan = planMultibody(model);
+    MultibodyAssembly assembly(matter);
+    for (const PlannedJoint& planned : plan) assembly.addJoint(planned);
+    for (const ModelConstraint& constraint : model.constraints) {
+        std::visit([&](const auto& known) { assembly.addConstraint(known); }, constraint);
+    }
+    return assembly.finish(model);
+}
+
+SimTK::Force::Gravity addGravity(const ModelDescription& model, SimTK::GeneralForceSubsystem& forces,
+                                 const SimTK::SimbodyMatterSubsystem& matter) {
+    return SimTK::Force::Gravity(forces, matter, toVec3(model.gravity));
+}
+
+SimTK::Transform toTransform(const RigidOffset& offset) {
+    const auto& r = offset.rotation;
+    const SimTK::Mat33 matrix(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]);
+    return {SimTK::Rotation(matrix, true), toVec3(offset.translation)};
+}
+
+SimTK::Vec3 toVec3(const Triple& triple) {
+    return {triple[0], triple[1], triple[2]};
+}
+
+}  // namespace tautline::models

@@ -1,0 +1,120 @@
+#include "tautline/models/model_system.h"
+
+#include <set>
+
+#include "tautline/error.h"
+#include "tautline/models/path_points.h"
+
+namespace tautline::models {
+
+namespace {
+
+/** Activation at the start, where the activation dynamics of a file's muscles begin by default. */
+constexpr double defaultActivation = 0.05;
+
+std::string locate(const ModelDescription& description, int line) {
+    return description.fileName + ":" + std::to_string(line) + ": ";
+}
+
+/** A pose is sampled in a system of its own, since muscles must be added before the topology is realized. */
+struct BindingSystem {
+    explicit BindingSystem(const ModelDescription& description)
+        : matter(system), model(buildMultibody(description, matter)), state(system.realizeTopology()) {
+        system.realizeModel(state);
+    }
+    SimTK::MultibodySystem system;
+    SimTK::SimbodyMatterSubsystem matter;
+    BuiltModel model;
+    SimTK::State state;
+};
+
+SimTK::Vec3 getFixedStation(const ModelDescription& description, const Muscle& muscle, const PathPoint& point) {
+    if (!std::holds_alternative<FixedLocation>(point.kind))
+        throw ModelError(locate(description, point.line) + "muscle '" + muscle.name + "': point '" + point.name +
+                         "' moves with or depends on a coordinate, which a simulated path cannot do yet");
+    return toVec3(point.location);
+}
+
+}  // namespace
+
+HillMuscleParameters toHillMuscleParameters(const Muscle& muscle) {
+    HillMuscleParameters parameters;
+    const auto take = [](double& to, const std::optional<double>& from) { to = from.value_or(to); };
+    parameters.maxIsometricForce = muscle.maxIsometricForce;
+    parameters.optimalFibreLength = muscle.optimalFiberLength;
+    parameters.tendonSlackLength = muscle.tendonSlackLength;
+    parameters.pennationAtOptimal = muscle.pennationAngleAtOptimal;
+    parameters.maxContractionVelocity = muscle.maxContractionVelocity;
+    take(parameters.activationTime, muscle.activationTimeConstant);
+    take(parameters.deactivationTime, muscle.deactivationTimeConstant);
+    take(parameters.activeWidth, muscle.activeShape);
+    take(parameters.passiveStrain, muscle.fiberStrainAtMaxForce);
+    take(parameters.passiveShape, muscle.passiveShape);
+    take(parameters.concentricShape, muscle.velocityShape);
+    take(parameters.eccentricForce, muscle.maxLengtheningForce);
+    parameters.defaultActivation = defaultActivation;
+    return parameters;
+}
+
+ModelSystem::ModelSystem(const ModelDescription& description)
+    : m_matter(m_system), m_forces(m_system), m_cables(m_system), m_model(buildMultibody(description, m_matter)) {
+    addGravity(description, m_forces, m_matter);
+    const BindingSystem binding(description);
+    for (const ModelConstraint& constraint : description.constraints)
+        if (const auto* coupler = std::get_if<CoordinateCoupler>(&constraint)) m_couplers.push_back(*coupler);
+    for (const Muscle& muscle : description.muscles) {
+        const std::vector<BoundWrap> wraps = bindWraps(description, muscle.path, binding.model, binding.state);
+        addMuscle(description, muscle, wraps);
+    }
+}
+
+void ModelSystem::addMuscle(const ModelDescription& description, const Muscle& muscle,
+                            const std::vector<BoundWrap>& wraps) {
+    const std::vector<PathPoint>& points = muscle.path.points;
+    MuscleSlot slot;
+    slot.name = muscle.name, slot.path = "/forceset/" + muscle.name, slot.wraps = wraps;
+    slot.cable =
+        Cable(m_cables, m_model.getBody(points.front().body), getFixedStation(description, muscle, points.front()),
+              m_model.getBody(points.back().body), getFixedStation(description, muscle, points.back()), muscle.name);
+    std::size_t next = 0;
+    for (std::size_t p = 0; p + 1 < points.size(); ++p) {
+        if (p > 0)
+            slot.cable.addViaPoint(m_model.getBody(points[p].body), getFixedStation(description, muscle, points[p]),
+                                   points[p].name);
+        for (; next < wraps.size() && wraps[next].segment == p; ++next) {
+            const WrapObject& object = description.wrapObjects[muscle.path.wraps[wraps[next].wrap].wrapObject];
+            slot.cable.addObstacle(m_model.getBody(object.body), toTransform(object.X_BW), makeSurface(object),
+                                   wraps[next].hint_W, object.name);
+        }
+    }
+    try {
+        slot.muscle = HillMuscle(m_forces, slot.cable, toHillMuscleParameters(muscle));
+    } catch (const InvalidInput& error) {
+        throw ModelError(locate(description, muscle.line) + "muscle '" + muscle.name + "': " + error.what());
+    }
+    if (!muscle.appliesForce) slot.muscle.setDisabledByDefault(true);
+    m_muscles.push_back(std::move(slot));
+}
+
+SimTK::State ModelSystem::makeDefaultState() {
+    SimTK::State state = m_system.realizeTopology();
+    m_system.realizeModel(state);
+    m_model.setDefaultPose(state);
+    return state;
+}
+
+double ModelSystem::calcMomentArm(const SimTK::State& state, const MuscleSlot& muscle,
+                                  const std::string& coordinate) const {
+    const auto& slot = m_model.getCoordinateSlot(coordinate);
+    double arm = muscle.cable.calcMomentArm(state, slot.body, slot.u);
+    const double q = m_model.getCoordinate(state, coordinate);
+    for (const CoordinateCoupler& coupler : m_couplers) {
+        if (coupler.independentCoordinate != coordinate) continue;
+        const auto& dependent = m_model.getCoordinateSlot(coupler.dependentCoordinate);
+        const double slope = coupler.scaleFactor * coupler.function.calcDerivative(q);
+        arm += slope * muscle.cable.calcMomentArm(state, dependent.body, dependent.u);
+    }
+    return arm;
+}
+
+}  // namespace tautline::models

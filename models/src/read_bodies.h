@@ -1,0 +1,31 @@
+#pragma once
+#include "frame_table.h"
+
+namespace tautline::models {
+
+/** An element that may own wrap objects, and the path of the frame that it is. */
+struct FrameElement {
+    Element element;
+    std::string path;
+};
+
+/** A joint, and in old documents the body that it stands in. */
+struct JointElement {
+    Element element;
+    std::string childBody;
+};
+
+/** What the bodies hold that can be read only once all bodies and frames are known. */
+struct BodyParts {
+    FrameTable frames;
+    std::vector<FrameElement> wrapOwners;
+    std::vector<JointElement> joints;
+};
+
+/** Reads Ground and BodySet of a Model element. */
+void readBodies(Element& model, BodyParts& parts);
+
+/** Enters an offset frame into the table and among the owners of wrap objects. */
+void addOffsetFrame(const Element& frame, const std::string& ownerPath, BodyParts& parts);
+
+}  // namespace tautline::models

@@ -1,0 +1,106 @@
+#include "read_wrap_objects.h"
+
+#include <map>
+
+namespace tautline::models {
+
+namespace {
+
+Quadrant readQuadrant(Element& element) {
+    static const std::map<std::string, Quadrant> quadrants{
+        {"", Quadrant::All},      {"all", Quadrant::All},   {"Unassigned", Quadrant::All}, {"x", Quadrant::PlusX},
+        {"+x", Quadrant::PlusX},  {"-x", Quadrant::MinusX}, {"y", Quadrant::PlusY},        {"+y", Quadrant::PlusY},
+        {"-y", Quadrant::MinusY}, {"z", Quadrant::PlusZ},   {"+z", Quadrant::PlusZ},       {"-z", Quadrant::MinusZ}};
+    const Element child = element.find("quadrant");
+    if (!child) return Quadrant::All;
+    const auto found = quadrants.find(child.getText());
+    if (found == quadrants.end()) {
+        child.fail("unknown quadrant '" + child.getText() + "' of " + element.describe());
+    }
+    return found->second;
+}
+
+EllipsoidShape readEllipsoid(Element& element) {
+    const Element dimensions = element.require("dimensions");
+    const EllipsoidShape shape{dimensions.getTriple()};
+    for (double semiAxis : shape.semiAxes) {
+        if (semiAxis <= 0.0) {
+            dimensions.fail("dimensions of " + element.describe() + " are " + dimensions.getText() +
+                            ", not all positive");
+        }
+    }
+    return shape;
+}
+
+TorusShape readTorus(Element& element) {
+    const TorusShape shape{element.requirePositive("inner_radius"), element.requirePositive("outer_radius")};
+    if (shape.tubeRadius >= shape.ringRadius) element.fail(element.describe() + " has no hole");
+    return shape;
+}
+
+void readShape(Element& element, WrapObject& wrap) {
+    const std::string tag = element.getTag();
+    if (tag == "WrapCylinder") {
+        wrap.shape = CylinderShape{element.requirePositive("radius"), element.requirePositive("length")};
+    } else if (tag == "WrapSphere") {
+        wrap.shape = SphereShape{element.requirePositive("radius")};
+    } else if (tag == "WrapEllipsoid") {
+        wrap.shape = readEllipsoid(element);
+    } else if (tag == "WrapTorus") {
+        wrap.shape = readTorus(element);
+    } else {
+        element.fail("unknown wrap object " + element.describe());
+    }
+}
+
+void checkUnique(const Element& element, const WrapObject& wrap, const ModelDescription& model) {
+    for (const WrapObject& other : model.wrapObjects) {
+        if (other.name == wrap.name && other.body == wrap.body) {
+            element.fail("a second wrap object '" + wrap.name + "' of body '" + wrap.body + "'");
+        }
+    }
+}
+
+void readWrapObject(Element element, const BodyFrame& owner) {
+    WrapObject wrap;
+    wrap.name = element.getRequiredName();
+    wrap.line = element.findLine();
+    wrap.body = owner.body;
+    readShape(element, wrap);
+    const Triple translation = element.getTripleOr("translation", {});
+    const Triple rotation = element.getTripleOr("xyz_body_rotation", {});
+    wrap.X_BW = compose(owner.X_BF, makeRigidOffset(translation, rotation));
+    wrap.quadrant = readQuadrant(element);
+    wrap.active = element.getBoolOr("active", true);
+    element.skip({"Appearance", "VisibleObject", "display_preference", "color", "FrameGeometry"}, "only drawn");
+    element.refuseUnknown();
+    auto& model = element.updReading().model;
+    checkUnique(element, wrap, model);
+    model.wrapObjects.push_back(wrap);
+}
+
+BodyFrame findOwner(const FrameElement& owner, const FrameTable& frames) {
+    Element element = owner.element;
+    if (element.getTag() != "PhysicalOffsetFrame") {
+        return {owner.path == "/ground" ? groundName : element.getName(), {}};
+    }
+    const Element parent = element.require("socket_parent");
+    const BodyFrame base = frames.resolve(parent, owner.path);
+    return {base.body, compose(base.X_BF, makeRigidOffset(element.getTripleOr("translation", {}),
+                                                          element.getTripleOr("orientation", {})))};
+}
+
+}  // namespace
+
+void readWrapObjects(const BodyParts& parts) {
+    for (const FrameElement& owner : parts.wrapOwners) {
+        Element element = owner.element;
+        Element set = element.find("WrapObjectSet");
+        if (!set) continue;
+        for (const Element& wrap : set.getSetMembers()) {
+            readWrapObject(wrap, findOwner(owner, parts.frames));
+        }
+    }
+}
+
+}  // namespace tautline::models

@@ -1,0 +1,183 @@
+#include "tautline/models/wrap_binding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tautline/cylinder.h"
+#include "tautline/ellipsoid.h"
+#include "tautline/models/path_points.h"
+#include "tautline/simbody/conversions.h"
+#include "tautline/sphere.h"
+#include "tautline/torus.h"
+
+namespace tautline::models {
+
+namespace {
+
+/** Poses besides the default one at which engagement is looked at. */
+constexpr int numSampledPoses = 60;
+/** Of a coordinate without limits: as far as it is sampled to either side of its default. */
+constexpr double unboundedRange = 1.0;
+
+/** A straight segment of a path seen from a wrap object. */
+struct SegmentInObject {
+    Vec3 A, e;
+    double length = 0.0;
+    double lowest = 0.0;  ///< coordinate of its lowest point over the surface
+    double height = 0.0;  ///< of that point
+    bool hasEndInside = false;
+};
+
+SegmentInObject lookAtSegment(const Surface& surface, const SimTK::Transform& X_GW, const SimTK::Vec3& A_G,
+                              const SimTK::Vec3& B_G) {
+    SegmentInObject segment;
+    Vec3 N;
+    const Vec3 A = toEigen(X_GW.shiftBaseStationToFrame(A_G)), B = toEigen(X_GW.shiftBaseStationToFrame(B_G));
+    segment.A = A;
+    segment.length = (B - A).norm();
+    segment.e = segment.length > 0 ? Vec3((B - A) / segment.length) : Vec3(Vec3::UnitX());
+    segment.lowest = surface.findLowestPoint(A, segment.e, segment.length);
+    segment.height = surface.calcHeight(A + segment.lowest * segment.e, N);
+    segment.hasEndInside = surface.calcHeight(A, N) < 0 || surface.calcHeight(B, N) < 0;
+    return segment;
+}
+
+/** The axis and sign of a quadrant; a zero vector for all. */
+Vec3 getActiveSide(Quadrant quadrant) {
+    switch (quadrant) {
+        case Quadrant::PlusX:
+            return Vec3::UnitX();
+        case Quadrant::MinusX:
+            return -Vec3::UnitX();
+        case Quadrant::PlusY:
+            return Vec3::UnitY();
+        case Quadrant::MinusY:
+            return -Vec3::UnitY();
+        case Quadrant::PlusZ:
+            return Vec3::UnitZ();
+        case Quadrant::MinusZ:
+            return -Vec3::UnitZ();
+        case Quadrant::All:
+            break;
+    }
+    return Vec3::Zero();
+}
+
+/** Whether a path wraps on this segment: where the segment meets the object, or where it passes it on the
+side opposite to the active one. A finite cylinder counts within its length only. */
+bool isEngaged(const WrapObject& object, const SegmentInObject& segment) {
+    if (segment.hasEndInside) return false;
+    const Vec3 D = segment.A + segment.lowest * segment.e, B = segment.A + segment.length * segment.e;
+    const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
+    if (cylinder && std::abs(D.z()) > 0.5 * cylinder->length) return false;
+    if (segment.height < 0) return true;
+    const Vec3 side = getActiveSide(object.quadrant);
+    if (!cylinder || side.isZero()) return false;
+    const bool isActiveA = segment.A.dot(side) > 0, isActiveB = B.dot(side) > 0;
+    return D.dot(side) < 0 && !(isActiveA && isActiveB);
+}
+
+/** First and last segment that the range of a wrap allows. */
+std::pair<std::size_t, std::size_t> getAllowedSegments(const PathWrap& wrap, std::size_t numPoints) {
+    const int last = static_cast<int>(numPoints);
+    const int from = wrap.range[0] < 1 ? 1 : wrap.range[0], to = wrap.range[1] < 1 ? last : wrap.range[1];
+    return {static_cast<std::size_t>(from - 1), static_cast<std::size_t>(to - 2)};
+}
+
+std::vector<SimTK::Vec3> calcPointLocations(const MusclePath& path, const BuiltModel& model,
+                                            const SimTK::State& state) {
+    std::vector<SimTK::Vec3> points_G;
+    for (const PathPoint& point : path.points)
+        points_G.push_back(model.calcStationLocation(state, point.body, calcPointStation(point, model, state)));
+    return points_G;
+}
+
+/** Moves every free coordinate to a place in its range; the same sequence at each call of bindWraps(). */
+void setRandomPose(const BuiltModel& model, std::mt19937& random, SimTK::State& state) {
+    for (const std::string& name : model.getCoordinateNames()) {
+        const auto& slot = model.getCoordinateSlot(name);
+        // mt19937's numbers are the same everywhere; those of standard distributions are not.
+        const double share = random() / static_cast<double>(std::mt19937::max());
+        const double low = std::isfinite(slot.range[0]) ? slot.range[0] : slot.defaultValue - unboundedRange;
+        const double high = std::isfinite(slot.range[1]) ? slot.range[1] : slot.defaultValue + unboundedRange;
+        if (!slot.locked) model.setCoordinate(state, name, low + share * (high - low));
+    }
+    model.applyCouplers(state);
+}
+
+std::optional<SimTK::Vec3> makeHint(const WrapObject& object, const Surface& surface, const SegmentInObject& segment) {
+    const Vec3 side = getActiveSide(object.quadrant);
+    if (side.isZero()) return std::nullopt;
+    Vec3 beside = 10 * surface.getSize() * side;
+    if (std::holds_alternative<CylinderShape>(object.shape)) beside.z() = (segment.A + segment.lowest * segment.e).z();
+    return toSimTK(surface.findSurfacePoint(beside).p);
+}
+
+}  // namespace
+
+std::shared_ptr<const Surface> makeSurface(const WrapObject& object) {
+    struct Maker {
+        std::shared_ptr<const Surface> operator()(const CylinderShape& s) {
+            return std::make_shared<Cylinder>(s.radius);
+        }
+        std::shared_ptr<const Surface> operator()(const SphereShape& s) { return std::make_shared<Sphere>(s.radius); }
+        std::shared_ptr<const Surface> operator()(const EllipsoidShape& s) {
+            return std::make_shared<Ellipsoid>(Vec3(s.semiAxes[0], s.semiAxes[1], s.semiAxes[2]));
+        }
+        std::shared_ptr<const Surface> operator()(const TorusShape& s) {
+            return std::make_shared<Torus>(s.ringRadius, s.tubeRadius);
+        }
+    };
+    return std::visit(Maker(), object.shape);
+}
+
+std::vector<BoundWrap> bindWraps(const ModelDescription& description, const MusclePath& path, const BuiltModel& model,
+                                 const SimTK::State& initialState) {
+    std::vector<BoundWrap> bound;
+    SimTK::State state = initialState;
+    const SimTK::SimbodyMatterSubsystem& matter = model.getMatter();
+    for (std::size_t w = 0; w < path.wraps.size(); ++w) {
+        const WrapObject& object = description.wrapObjects[path.wraps[w].wrapObject];
+        if (!object.active) continue;
+        const auto surface = makeSurface(object);
+        const auto [first, last] = getAllowedSegments(path.wraps[w], path.points.size());
+        std::vector<int> engaged(path.points.size(), 0);
+        std::vector<SegmentInObject> atDefault(path.points.size());
+        std::mt19937 random(20260101);
+        for (int sample = 0; sample <= numSampledPoses; ++sample) {
+            if (sample == 0)
+                model.setDefaultPose(state);
+            else
+                setRandomPose(model, random, state);
+            matter.getSystem().realize(state, SimTK::Stage::Position);
+            const SimTK::Transform X_GW = model.getBody(object.body).getBodyTransform(state) * toTransform(object.X_BW);
+            const std::vector<SimTK::Vec3> points_G = calcPointLocations(path, model, state);
+            for (std::size_t s = first; s <= last; ++s) {
+                const SegmentInObject segment = lookAtSegment(*surface, X_GW, points_G[s], points_G[s + 1]);
+                if (sample == 0) atDefault[s] = segment;
+                engaged[s] += isEngaged(object, segment);
+            }
+        }
+        BoundWrap wrap;
+        wrap.wrap = w, wrap.segment = first;
+        int total = 0;
+        for (std::size_t s = first; s <= last; ++s) {
+            total += engaged[s];
+            const bool isNearer = atDefault[s].height < atDefault[wrap.segment].height;
+            if (engaged[s] > engaged[wrap.segment] || (engaged[s] == engaged[wrap.segment] && isNearer))
+                wrap.segment = s;
+        }
+        const SegmentInObject& segment = atDefault[wrap.segment];
+        wrap.numEngaged = engaged[wrap.segment], wrap.numElsewhere = total - wrap.numEngaged;
+        wrap.place = segment.length > 0 ? std::clamp(-segment.A.dot(segment.e) / segment.length, 0.0, 1.0) : 0.0;
+        wrap.hint_W = makeHint(object, *surface, segment);
+        bound.push_back(wrap);
+    }
+    std::stable_sort(bound.begin(), bound.end(), [](const BoundWrap& a, const BoundWrap& b) {
+        return a.segment != b.segment ? a.segment < b.segment : a.place < b.place;
+    });
+    return bound;
+}
+
+}  // namespace tautline::models

@@ -1,0 +1,55 @@
+#include "run_command.h"
+
+#include "run_report.h"
+#include "tautline/models/osim_reader.h"
+
+namespace tautline {
+
+void RunCommand::declare(CLI::App& app) {
+    app.add_option("MODEL", modelFile, "model file (.osim)")->required();
+    app.add_option("--duration", simulation.duration, "time to simulate [s]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    app.add_option("--out", outFolder, "folder of the results, made if missing")->capture_default_str();
+    app.add_option("--excitation", excitations.assignments,
+                   "constant excitation of a muscle, NAME=VALUE in [0, 1]; repeatable; 0.05 for all others");
+    app.add_option("--excitations", excitations.file, "storage file (.sto) with a column of excitations per muscle");
+    app.add_option("--interval", simulation.interval, "time between rows of the results [s]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    app.add_option("--accuracy", simulation.accuracy, "accuracy of the integrator")
+        ->check(CLI::Range(1e-14, 0.1))
+        ->capture_default_str();
+    app.add_flag("--allow-degraded", allowsDegraded, "exit with 0 even if some steps had no verified shortest path");
+}
+
+int RunCommand::run(std::ostream& out, bool isTerminal) const {
+    const models::ModelDescription description = models::readOsimFile(modelFile);
+    models::ModelSystem model(description);
+    std::vector<std::string> names;
+    for (const auto& slot : model.getMuscles()) names.push_back(slot.name);
+    int numDefault = 0;
+    const auto muscleExcitations = makeExcitations(excitations, names, numDefault);
+    printModelNotes(description, model, out);
+    if (numDefault > 0)
+        out << "excitation: " << kDefaultExcitation << " for "
+            << (numDefault == static_cast<int>(names.size()) ? "all " : "") << numDefault << " muscles\n";
+    std::filesystem::create_directories(outFolder);
+
+    ProgressBar bar(out, isTerminal);
+    const SimulationResult result =
+        simulate(model, muscleExcitations, simulation, [&bar](double share) { bar.show(share); });
+    bar.clear();
+    writeStorage(result.states, outFolder / "states.sto");
+    writeStorage(result.paths, outFolder / "paths.sto");
+    writeWhole(result.events, outFolder / "events.csv");
+    printRunTable(model, result, out);
+    out << "results: " << (outFolder / "states.sto").string() << ", " << (outFolder / "paths.sto").string() << ", "
+        << (outFolder / "events.csv").string() << "\n";
+
+    for (const MuscleSummary& summary : result.muscles)
+        if (summary.degradedSteps > 0 && !allowsDegraded) return 3;
+    return 0;
+}
+
+}  // namespace tautline

@@ -1,0 +1,26 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <ostream>
+
+#include "simulation.h"
+
+namespace tautline {
+
+/** `tautline run`: simulates a model file and writes states.sto, paths.sto and events.csv. */
+struct RunCommand {
+    std::filesystem::path modelFile, outFolder = "results";
+    ExcitationOptions excitations;
+    SimulationOptions simulation;
+    bool allowsDegraded = false;
+
+    /** Declares the options in a subcommand. */
+    void declare(CLI::App& app);
+
+    /** @param isTerminal   whether `out` may be drawn a progress bar on
+    @return exit code: 0, or 3 if accepted steps had no verified path and that was not allowed. Throws
+    std::exception with one line for bad input; then no result file is written. */
+    int run(std::ostream& out, bool isTerminal) const;
+};
+
+}  // namespace tautline

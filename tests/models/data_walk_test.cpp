@@ -1,0 +1,116 @@
+/** The walking models of the reference data: splines, conditional and moving points, couplers. */
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "model_test_support.h"
+#include "support/shared_data.h"
+#include "tautline/models/path_points.h"
+
+namespace tautline::models::testing {
+namespace {
+
+struct Table {
+    std::vector<std::string> labels;
+    std::vector<std::vector<double>> rows;
+};
+
+/** Motions and storages: a header up to `endheader`, labels, numbers. */
+Table readTable(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    Table table;
+    std::string line;
+    while (std::getline(stream, line) && line.rfind("endheader", 0) != 0) {
+    }
+    while (std::getline(stream, line)) {
+        std::istringstream words(line);
+        if (table.labels.empty()) {
+            for (std::string word; words >> word;) table.labels.push_back(word);
+            continue;
+        }
+        std::vector<double> row;
+        for (double number; words >> number;) row.push_back(number);
+        if (row.size() == table.labels.size()) table.rows.push_back(row);
+    }
+    return table;
+}
+
+/** /jointset/knee/angle/value -> angle. */
+std::string findCoordinateName(const std::string& label) {
+    const auto end = label.rfind("/value");
+    const auto start = label.rfind('/', end - 1) + 1;
+    return label.substr(start, end - start);
+}
+
+TEST(DataWalk1018, HasTheReferenceLengthsOverTheMotion) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    const auto folder = shared / "data" / "opensim";
+    BuiltSystem walk(readOsimFile(folder / "models" / "walk_gait1018_subject01.osim"));
+    const Table motion = readTable(folder / "motions" / "walk_gait1018_state_reference.mot");
+    const Table lengths =
+        readTable(folder / "reference" / "std_testGeometryPathWrapping_walk_gait1018_muscle_lengths.sto");
+    ASSERT_EQ(motion.rows.size(), 151u);
+    ASSERT_EQ(lengths.rows.size(), 151u);
+    ASSERT_EQ(walk.description.muscles.size() + 1, lengths.labels.size());
+    double worst = 0.0;
+    for (std::size_t frame = 0; frame < motion.rows.size(); ++frame) {
+        for (std::size_t i = 1; i < motion.labels.size(); ++i) {
+            const std::string name = findCoordinateName(motion.labels[i]);
+            const bool shifts = name == "pelvis_tx" || name == "pelvis_ty";
+            walk.set(name, motion.rows[frame][i] * (shifts ? 1.0 : SimTK_DEGREE_TO_RADIAN));
+        }
+        for (std::size_t i = 0; i < walk.description.muscles.size(); ++i) {
+            const Muscle& muscle = walk.description.muscles[i];
+            ASSERT_EQ(lengths.labels[i + 1], "/forceset/" + muscle.name + "|length");
+            const double length = calcPolygonLength(muscle.path, walk.model, walk.state);
+            worst = std::max(worst, std::abs(length - lengths.rows[frame][i + 1]));
+        }
+    }
+    std::cout << "18 muscles, 151 frames: worst " << worst << " m\n";
+    EXPECT_LT(worst, 2e-7) << "1.5e-7 from offsets that the reference rounded to six digits";
+}
+
+TEST(DataModels, AreReadAndBuilt) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    struct Case {
+        const char* file;
+        std::size_t bodies, coordinates, muscles, wraps, constraints;
+    };
+    const Case cases[] = {{"gait2392_thelen2003muscle.osim", 12, 23, 92, 0, 0},
+                          {"walk_gait1018_subject01.osim", 12, 10, 18, 0, 0},
+                          {"Rajagopal2016.osim", 22, 39, 80, 40, 2},
+                          {"RajagopalLaiUhlrich2023.osim", 22, 39, 80, 44, 2},
+                          {"subject_walk_scaled.osim", 22, 33, 80, 44, 2}};
+    for (const Case& expected : cases) {
+        SCOPED_TRACE(expected.file);
+        BuiltSystem built(readOsimFile(shared / "data" / "opensim" / "models" / expected.file));
+        EXPECT_EQ(built.description.bodies.size(), expected.bodies);
+        EXPECT_EQ(built.model.getCoordinateNames().size(), expected.coordinates);
+        EXPECT_EQ(built.description.muscles.size(), expected.muscles);
+        EXPECT_EQ(built.description.wrapObjects.size(), expected.wraps);
+        EXPECT_EQ(built.description.constraints.size(), expected.constraints);
+        built.system.realize(built.state, SimTK::Stage::Position);
+        EXPECT_LT(built.state.getQErr().normInf(), 1e-12);
+        built.system.realize(built.state, SimTK::Stage::Acceleration);
+        EXPECT_FALSE(std::isnan(built.state.getUDot().norm()));
+    }
+}
+
+TEST(DataModels, WhatIsNotKnownIsRefusedByName) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    const std::pair<const char*, const char*> cases[] = {
+        {"ThoracoscapularShoulderModel.osim", "impossible moments of inertia of Body 'radius'"},
+        {"Scholz2015GeometryPathExample.osim", "unknown path Scholz2015GeometryPath"}};
+    for (const auto& [file, message] : cases) {
+        try {
+            readOsimFile(shared / "data" / "opensim" / "models" / file);
+            ADD_FAILURE() << file << " was read";
+        } catch (const ModelError& error) {
+            EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tautline::models::testing
