@@ -19,11 +19,12 @@ std::string locate(const ModelDescription& description, int line) {
 /** A pose is sampled in a system of its own, since muscles must be added before the topology is realized. */
 struct BindingSystem {
     explicit BindingSystem(const ModelDescription& description)
-        : matter(system), model(buildMultibody(description, matter)), state(system.realizeTopology()) {
+        : matter(system), forces(system), model(buildMultibody(description, matter)), state(system.realizeTopology()) {
         system.realizeModel(state);
     }
     SimTK::MultibodySystem system;
     SimTK::SimbodyMatterSubsystem matter;
+    SimTK::GeneralForceSubsystem forces;  // Simbody 3.7 cannot realize a matter subsystem without one
     BuiltModel model;
     SimTK::State state;
 };

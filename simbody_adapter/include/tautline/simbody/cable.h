@@ -1,0 +1,200 @@
+#pragma once
+#include <Simbody.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tautline/path_solver.h"
+#include "tautline/path_verification.h"
+#include "tautline/simbody/cable_subsystem.h"
+
+namespace tautline {
+
+class CableImpl;
+
+/** Identifies an element of a cable's path: 0 is the origin, then via points and obstacles in the order in
+which they were added, last the insertion. */
+SimTK_DEFINE_UNIQUE_INDEX_TYPE(CableElementIndex);
+
+/** A contact that was made (touchdown) or lost (lift-off) in a time-stepping study. */
+struct ContactEvent {
+    enum class Kind { Made, Lost };
+    SimTK::Real time;  ///< [s]
+    CableIndex cable;
+    CableElementIndex obstacle;
+    Kind kind;
+    SimTK::Real lengthBefore, lengthAfter;  ///< of the cable [m]
+};
+
+/** What a cable's solves have cost since construction or the last reset, over all States and threads. */
+struct CableStatistics {
+    long numSolves = 0;
+    long numColdSolves = 0;   ///< started anew instead of continued
+    long numFailures = 0;     ///< ended as NotConverged
+    long numIterations = 0;   ///< of Newton's method
+    long numShots = 0;        ///< geodesics shot
+    long numContactEvents = 0;  ///< contacts made or lost by the event handlers
+    double seconds = 0;       ///< spent in the solver
+};
+
+/** A taut, frictionless, massless string from a point on one body over via points and smooth obstacles on
+others to a point on another: the shortest path, found on its own side of each obstacle.
+
+A Cable is a light handle: copy it freely, its contents belong to the CableSubsystem.
+
+Frames: B a body, E an element's frame (its station on B, or the surface frame S), G ground. Units: SI.
+Each query says which stage it needs; asked too early it throws Simbody's own stage error. A query on a
+cable that is disabled in the State throws too. */
+class Cable {
+public:
+    Cable() = default;
+
+    /** Adds a cable to the subsystem. All bodies must belong to one matter subsystem of the same system.
+    @param originStation_B, insertionStation_B   finite, measured in the body's frame [m]
+    @param name   for messages and decorations; empty: "cable0", "cable1", ...
+    @throws InvalidInput with the value */
+    Cable(CableSubsystem& cables, const SimTK::MobilizedBody& originBody,
+          const SimTK::Vec3& originStation_B, const SimTK::MobilizedBody& insertionBody,
+          const SimTK::Vec3& insertionStation_B, std::string name = "");
+
+    /** @name Building: before realizeTopology() */
+    ///@{
+    /** Adds a frictionless eyelet after what has been added so far.
+    @param name   empty: "point1", ... by element index */
+    CableElementIndex addViaPoint(const SimTK::MobilizedBody& body, const SimTK::Vec3& station_B,
+                                  std::string name = "");
+
+    /** Adds an obstacle after what has been added so far, and the event handler that watches it.
+    @param X_BS      pose of the surface frame S on the body
+    @param surface   may be shared between obstacles
+    @param hint_S    a point near which the path shall run at first, in S; none: the solver finds a side
+    @param name      unique within the cable; empty: "obstacle1", ... by element index */
+    CableElementIndex addObstacle(const SimTK::MobilizedBody& body, const SimTK::Transform& X_BS,
+                                  std::shared_ptr<const Surface> surface,
+                                  std::optional<SimTK::Vec3> hint_S = std::nullopt,
+                                  std::string name = "");
+
+    void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
+
+    /** @throws InvalidInput naming the option out of range */
+    void setOptions(const PathSolverOptions& options);
+    const PathSolverOptions& getOptions() const;
+
+    /** A disabled cable solves nothing, pulls at nothing and raises no events. */
+    void setDisabledByDefault(bool isDisabled);
+    bool isDisabledByDefault() const;
+
+    /** Called by the event handlers for each contact made or lost, in the thread of the study. */
+    void setContactListener(std::function<void(const ContactEvent&)> listener);
+    ///@}
+
+    /** @name What the cable is made of */
+    ///@{
+    bool isEmptyHandle() const { return m_impl == nullptr; }
+    const std::string& getName() const;
+    CableIndex getCableIndex() const;
+    const CableSubsystem& getSubsystem() const;
+    const SimTK::SimbodyMatterSubsystem& getMatterSubsystem() const;
+    /** Origin and insertion included. */
+    int getNumElements() const;
+    bool isObstacle(CableElementIndex element) const;
+    const std::string& getElementName(CableElementIndex element) const;
+    /** @throws InvalidInput if no element has this name */
+    CableElementIndex findElement(const std::string& name) const;
+    SimTK::MobilizedBodyIndex getElementBody(CableElementIndex element) const;
+    /** X_BE: the station of a point, the pose of a surface. */
+    SimTK::Transform getElementFrame(CableElementIndex element) const;
+    /** Null for points. */
+    std::shared_ptr<const Surface> getSurface(CableElementIndex element) const;
+    ///@}
+
+    /** @name State [Model]: changing it invalidates Position */
+    ///@{
+    void disable(SimTK::State& state) const;
+    void enable(SimTK::State& state) const;
+    bool isDisabled(const SimTK::State& state) const;
+
+    /** Fixes the contact set found in this state [Position]: later poses are solved with the same contacts
+    and continued from this path, until releaseContacts() or an event handler changes them. For studies
+    that move in small steps without an integrator, where a start anew at every pose costs too much. A
+    time-stepping study does this by itself when it initializes. */
+    void fixContacts(SimTK::State& state) const;
+
+    /** Lets every realize(Position) find the contact set anew. Call it after moving a State that comes from
+    an integrator to another pose. */
+    void releaseContacts(SimTK::State& state) const;
+    bool areContactsFixed(const SimTK::State& state) const;
+    ///@}
+
+    /** @name Path [Position] */
+    ///@{
+    SimTK::Real getLength(const SimTK::State& state) const;
+    PathStatus getStatus(const SimTK::State& state) const;
+    /** max |eps|, dimensionless. */
+    SimTK::Real getPathError(const SimTK::State& state) const;
+    const PathSolution& getSolution(const SimTK::State& state) const;
+    /** Whether the path is a local minimum, contacts included, and if not, why: with fixed contacts
+    getStatus() tells only whether the path error vanishes. */
+    PathVerification calcVerification(const SimTK::State& state) const;
+    bool isTouched(const SimTK::State& state, CableElementIndex obstacle) const;
+    /** Length of the arc on an obstacle [m]; 0 while lifted. */
+    SimTK::Real getArcLength(const SimTK::State& state, CableElementIndex obstacle) const;
+    /** Where the path meets (P) and leaves (Q) an obstacle, in ground. @return false while lifted */
+    bool getContactPoints(const SimTK::State& state, CableElementIndex obstacle,
+                          SimTK::Vec3& P_G, SimTK::Vec3& Q_G) const;
+    /** Signed distance of the straight segment that passes a lifted obstacle [m]; NaN while touched. */
+    SimTK::Real getClearance(const SimTK::State& state, CableElementIndex obstacle) const;
+    /** What the event finder watches, dimensionless: contact changes where it falls below zero. Lifted:
+    clearance above the contact tolerance, touched: arc length over size. Positive and never 0 or NaN
+    unless the contact is about to change; 1 while contacts are free. */
+    SimTK::Real getWitness(const SimTK::State& state, CableElementIndex obstacle) const;
+    /** Points along the path in ground, arcs turned by at most maxAngle [rad] between points. */
+    std::vector<SimTK::Vec3> calcDrawingPoints(const SimTK::State& state,
+                                               SimTK::Real maxAngle = 0.1) const;
+    ///@}
+
+    /** @name Forces: unit tension unless one is given [Position] */
+    ///@{
+    /** Adds the forces of a tension [N] to those of all bodies, about body origins, in ground.
+    @param bodyForces   one entry per mobilized body */
+    void applyBodyForces(const SimTK::State& state, SimTK::Real tension,
+                         SimTK::Vector_<SimTK::SpatialVec>& bodyForces) const;
+    /** Moment [m] and force [1] of unit tension on each body, about body origins, in ground.
+    @param unitForces   resized and overwritten */
+    void calcUnitBodyForces(const SimTK::State& state,
+                            SimTK::Vector_<SimTK::SpatialVec>& unitForces) const;
+    /** As calcUnitBodyForces(), for one element and about the element's origin E. */
+    SimTK::SpatialVec calcUnitElementForce(const SimTK::State& state,
+                                           CableElementIndex element) const;
+    /** Generalized forces of unit tension, one per mobility: -d(length rate)/du. */
+    void calcUnitMobilityForces(const SimTK::State& state, SimTK::Vector& unitForces) const;
+    /** Moment arm -dl/dq about one mobility whose speed u is q's derivative [m/rad or 1]: positive where
+    shortening drives q up. Constraints are not followed: project with their coupling if there are any. */
+    SimTK::Real calcMomentArm(const SimTK::State& state, SimTK::MobilizedBodyIndex body,
+                              SimTK::MobilizerUIndex u) const;
+    ///@}
+
+    /** @name Rates [Velocity] */
+    ///@{
+    /** Exact dL/dt [m/s]. */
+    SimTK::Real getLengthRate(const SimTK::State& state) const;
+    /** Power of the forces that a tension [N] puts on the bodies [W]: -tension * length rate. */
+    SimTK::Real calcPower(const SimTK::State& state, SimTK::Real tension) const;
+    ///@}
+
+    CableStatistics getStatistics() const;
+    void resetStatistics() const;
+
+private:
+    friend class CableSubsystemImpl;
+    explicit Cable(CableImpl* impl) : m_impl(impl) {}
+    CableImpl& upd() const;
+    const CableImpl& get() const;
+
+    CableImpl* m_impl = nullptr;  ///< owned by the subsystem
+};
+
+}  // namespace tautline

@@ -1,0 +1,57 @@
+#include "tautline/simbody/cable_force_law.h"
+
+#include "cable_force_impl.h"
+#include "tautline/error.h"
+
+namespace tautline {
+
+using SimTK::Real;
+using SimTK::State;
+
+CableForceLaw::CableForceLaw(const Cable& cable) : m_cable(cable) {
+    require(!cable.isEmptyHandle(), "cable force: the cable is an empty handle");
+}
+
+CableForce::CableForce(SimTK::GeneralForceSubsystem& forces, std::unique_ptr<CableForceLaw> law)
+    : Custom(forces, new CableForceImpl(forces, std::move(law))) {}
+
+const CableForceLaw& CableForce::getLaw() const {
+    return dynamic_cast<const CableForceImpl&>(getImplementation()).getLaw();
+}
+
+CableForceLaw& CableForce::updLaw() {
+    return dynamic_cast<CableForceImpl&>(updImplementation()).updLaw();
+}
+
+Real CableForce::getTension(const State& state) const {
+    if (isDisabled(state)) return 0;
+    return dynamic_cast<const CableForceImpl&>(getImplementation()).calcTension(state);
+}
+
+Real CableForce::calcPower(const State& state) const {
+    const Real tension = getTension(state);
+    return tension == 0 ? 0 : -tension * getCable().getLengthRate(state);
+}
+
+CableForceImpl::CableForceImpl(const SimTK::GeneralForceSubsystem& forces,
+                               std::unique_ptr<CableForceLaw> law)
+    : m_forces(forces), m_law(std::move(law)) {
+    require(m_law != nullptr, "cable force: the law is null");
+}
+
+Real CableForceImpl::calcTension(const State& state) const {
+    if (m_law->getCable().isDisabled(state)) return 0;
+    return std::max(Real(0), m_law->calcTension(state));
+}
+
+void CableForceImpl::calcForce(const State& state, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,
+                               SimTK::Vector_<SimTK::Vec3>&, SimTK::Vector&) const {
+    const Real tension = calcTension(state);
+    if (tension > 0) m_law->getCable().applyBodyForces(state, tension, bodyForces);
+}
+
+Real CableForceImpl::calcPotentialEnergy(const State& state) const {
+    return m_law->getCable().isDisabled(state) ? 0 : m_law->calcPotentialEnergy(state);
+}
+
+}  // namespace tautline

@@ -1,0 +1,148 @@
+#include "tautline/simbody/cable_forces.h"
+
+#include <cmath>
+
+#include "tautline/error.h"
+
+namespace tautline {
+
+using SimTK::Real;
+using SimTK::State;
+
+namespace {
+
+class ElasticStringLaw : public CableForceLaw {
+public:
+    ElasticStringLaw(const Cable& cable, Real slackLength, Real stiffness, Real damping)
+        : CableForceLaw(cable),
+          m_slackLength(checked(slackLength, "slack length")),
+          m_stiffness(checked(stiffness, "stiffness")),
+          m_damping(checked(damping, "damping")) {}
+
+    Real getSlackLength() const { return m_slackLength; }
+    Real getStiffness() const { return m_stiffness; }
+    Real getDamping() const { return m_damping; }
+
+    Real calcStretch(const State& state) const {
+        return std::max(Real(0), getCable().getLength(state) - m_slackLength);
+    }
+
+    Real calcTension(const State& state) const override {
+        const Real stretch = calcStretch(state);
+        if (stretch == 0) return 0;
+        const Real rate = m_damping > 0 ? getCable().getLengthRate(state) : 0;
+        return m_stiffness * stretch * (1 + m_damping * rate);
+    }
+
+    Real calcPotentialEnergy(const State& state) const override {
+        return m_stiffness * SimTK::square(calcStretch(state)) / 2;
+    }
+
+private:
+    Real checked(Real value, const char* what) const {
+        require(std::isfinite(value) && value >= 0, "elastic string force on cable '",
+                getCable().getName(), "': ", what, " must be finite and not negative, but is ",
+                value);
+        return value;
+    }
+
+    Real m_slackLength, m_stiffness, m_damping;
+};
+
+/** A tension from a discrete variable (no function) or from a function. */
+class PrescribedTensionLaw : public CableForceLaw {
+public:
+    PrescribedTensionLaw(const Cable& cable, Real tension)
+        : CableForceLaw(cable), m_defaultTension(tension) {
+        check(tension);
+    }
+    PrescribedTensionLaw(const Cable& cable, std::function<Real(const State&)> calcTension)
+        : CableForceLaw(cable), m_calcTension(std::move(calcTension)) {
+        require(m_calcTension != nullptr, "prescribed tension on cable '", cable.getName(),
+                "': the function is null");
+    }
+
+    Real calcTension(const State& state) const override {
+        if (m_calcTension) return m_calcTension(state);
+        return SimTK::Value<Real>::downcast(m_forces->getDiscreteVariable(state, m_tension));
+    }
+
+    void setTension(State& state, Real tension) const {
+        check(tension);
+        require(!m_calcTension, "prescribed tension on cable '", getCable().getName(),
+                "': is given by a function and cannot be set");
+        SimTK::Value<Real>::updDowncast(m_forces->updDiscreteVariable(state, m_tension)) = tension;
+    }
+
+    void realizeTopology(State& state, const SimTK::Subsystem& forces) override {
+        m_forces = &forces;
+        m_tension = forces.allocateDiscreteVariable(state, SimTK::Stage::Dynamics,
+                                                    new SimTK::Value<Real>(m_defaultTension));
+    }
+
+private:
+    void check(Real tension) const {
+        require(std::isfinite(tension) && tension >= 0, "prescribed tension on cable '",
+                getCable().getName(), "': must be finite and not negative, but is ", tension);
+    }
+
+    Real m_defaultTension = 0;
+    std::function<Real(const State&)> m_calcTension;
+    const SimTK::Subsystem* m_forces = nullptr;
+    SimTK::DiscreteVariableIndex m_tension;
+};
+
+const ElasticStringLaw& getElasticLaw(const CableForce& force) {
+    return dynamic_cast<const ElasticStringLaw&>(force.getLaw());
+}
+
+std::function<Real(const State&)> makeTimeFunction(SimTK::Function* tensionOfTime) {
+    if (!tensionOfTime) return nullptr;
+    const std::shared_ptr<const SimTK::Function> owned(tensionOfTime);
+    require(owned->getArgumentSize() == 1, "prescribed tension: the function must have one ",
+            "argument, the time, but has ", owned->getArgumentSize());
+    return [owned](const State& state) {
+        return owned->calcValue(SimTK::Vector(1, state.getTime()));
+    };
+}
+
+}  // namespace
+
+ElasticStringForce::ElasticStringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
+                                       Real slackLength, Real stiffness, Real damping)
+    : CableForce(forces, std::make_unique<ElasticStringLaw>(cable, slackLength, stiffness,
+                                                            damping)) {}
+
+Real ElasticStringForce::getSlackLength() const { return getElasticLaw(*this).getSlackLength(); }
+Real ElasticStringForce::getStiffness() const { return getElasticLaw(*this).getStiffness(); }
+Real ElasticStringForce::getDamping() const { return getElasticLaw(*this).getDamping(); }
+
+Real ElasticStringForce::getStretch(const State& state) const {
+    return getElasticLaw(*this).calcStretch(state);
+}
+
+Real ElasticStringForce::getPowerDissipation(const State& state) const {
+    const Real rate = getCable().getLengthRate(state);
+    // What the tension does beyond the elastic part, so that the cut at zero is accounted for.
+    return (getTension(state) - getStiffness() * getStretch(state)) * rate;
+}
+
+PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces,
+                                               const Cable& cable, Real tension)
+    : CableForce(forces, std::make_unique<PrescribedTensionLaw>(cable, tension)) {}
+
+PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces,
+                                               const Cable& cable,
+                                               std::function<Real(const State&)> calcTension)
+    : CableForce(forces, std::make_unique<PrescribedTensionLaw>(cable, std::move(calcTension))) {}
+
+PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces,
+                                               const Cable& cable,
+                                               SimTK::Function* tensionOfTime)
+    : PrescribedTensionForce(forces, cable, makeTimeFunction(tensionOfTime)) {}
+
+void PrescribedTensionForce::setTension(State& state, Real tension) const {
+    dynamic_cast<const PrescribedTensionLaw&>(getLaw()).setTension(state, tension);
+}
+
+}  // namespace tautline

@@ -1,0 +1,281 @@
+#include "cable_impl.h"
+
+#include <chrono>
+
+#include "cable_subsystem_impl.h"
+#include "contact_event_handler.h"
+#include "contact_settling.h"
+#include "tautline/error.h"
+#include "tautline/path_kinematics.h"
+#include "tautline/simbody/conversions.h"
+
+namespace tautline {
+
+using SimTK::Real;
+using SimTK::SpatialVec;
+using SimTK::Stage;
+using SimTK::State;
+
+namespace {
+
+bool isFinite(const PathPose& pose) {
+    for (const Pose& X : pose.X_GE)
+        if (!X.p.allFinite() || !X.R.allFinite()) return false;
+    return true;
+}
+
+/** The answer for a pose that is not finite: nothing to draw, nothing that pulls. */
+void makeEmptyPath(int numElements, PathSolution& path) {
+    path = PathSolution();
+    path.contacts.assign(numElements, ObstacleContact());
+}
+
+}  // namespace
+
+CableImpl::CableImpl(CableSubsystemImpl& cables, CableIndex index, std::string name)
+    : m_cables(cables), m_index(index), m_name(std::move(name)) {
+    if (m_name.empty()) m_name = "cable" + std::to_string(index);
+}
+
+void CableImpl::setEnds(CableElement origin, CableElement insertion) {
+    m_elements = {std::move(origin), std::move(insertion)};
+}
+
+CableElementIndex CableImpl::insertElement(CableElement element) {
+    const CableElementIndex index(getNumElements() - 1);
+    if (element.name.empty())
+        element.name = (element.surface ? "obstacle" : "point") + std::to_string(index);
+    for (const CableElement& other : m_elements)
+        require(other.name != element.name, "cable '", m_name, "': there is an element '",
+                element.name, "' already");
+    const bool isObstacle = element.surface != nullptr;
+    m_elements.insert(m_elements.end() - 1, std::move(element));
+    m_cables.invalidateSubsystemTopologyCache();
+    if (isObstacle) m_cables.updSystem().addEventHandler(new ContactEventHandler(*this, index));
+    return index;
+}
+
+void CableImpl::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
+    getObstacle(obstacle);
+    require(!hint_S || hint_S->isFinite(), "cable '", m_name, "': the hint of obstacle '",
+            m_elements[obstacle].name, "' is not finite");
+    m_elements[obstacle].hint_S = hint_S;
+    m_cables.invalidateSubsystemTopologyCache();
+}
+
+void CableImpl::setOptions(const PathSolverOptions& options) {
+    options.validate();
+    m_options = options;
+    m_cables.invalidateSubsystemTopologyCache();
+}
+
+void CableImpl::setDisabledByDefault(bool isDisabled) {
+    m_defaultMode.isDisabled = isDisabled;
+    m_cables.invalidateSubsystemTopologyCache();
+}
+
+const CableElement& CableImpl::getElement(CableElementIndex element) const {
+    require(element.isValid() && element < getNumElements(), "cable '", m_name, "': no element ",
+            static_cast<int>(element), " of ", getNumElements());
+    return m_elements[element];
+}
+
+const CableElement& CableImpl::getObstacle(CableElementIndex element) const {
+    const CableElement& found = getElement(element);
+    require(found.surface != nullptr, "cable '", m_name, "': element '", found.name,
+            "' is a point, not an obstacle");
+    return found;
+}
+
+const SimTK::MobilizedBody& CableImpl::getBody(const CableElement& element) const {
+    return m_cables.getMatter().getMobilizedBody(element.body);
+}
+
+void CableImpl::realizeTopology(State& state) {
+    m_problem = PathProblem();
+    for (const CableElement& element : m_elements) {
+        if (!element.surface) {
+            m_problem.addPoint(element.name);
+            continue;
+        }
+        std::optional<Vec3> hint_S;
+        if (element.hint_S) hint_S = toEigen(*element.hint_S);
+        m_problem.addObstacle(element.name, element.surface, hint_S);
+    }
+    m_state.allocate(m_cables, state, m_defaultMode, m_options);
+}
+
+void CableImpl::realizePosition(const State& state) const {
+    const CableMode& mode = m_state.getMode(state);
+    if (mode.isDisabled) return;
+    CableWorkspace& workspace = m_state.updWorkspace(state);
+    calcPose(state, workspace.pose);
+    solve(m_state.getStart(state), mode.keepsContacts, workspace, m_state.updPath(state));
+    m_state.markPathRealized(state);
+}
+
+void CableImpl::setDisabled(State& state, bool isDisabled) const {
+    CableMode mode = m_state.getMode(state);
+    mode.isDisabled = isDisabled;
+    m_state.setMode(state, mode);
+}
+
+const PathSolution& CableImpl::getPath(const State& state, const char* method) const {
+    m_cables.ensureStage(state, Stage::Position, method);
+    SimTK_ERRCHK1_ALWAYS(!isDisabled(state), method, "cable '%s' is disabled in this State",
+                         m_name.c_str());
+    // A study's swap leaves the path unrealized at a stage beyond Position.
+    if (!m_state.isPathRealized(state)) realizePosition(state);
+    return m_state.getPath(state);
+}
+
+Real CableImpl::getLengthRate(const State& state) const {
+    m_cables.ensureStage(state, Stage::Velocity, "Cable::getLengthRate()");
+    const PathSolution& path = getPath(state, "Cable::getLengthRate()");
+    if (!m_state.isRateRealized(state)) {
+        CableWorkspace& workspace = m_state.updWorkspace(state);
+        calcVelocities(state, workspace.velocities);
+        m_state.setRate(state, calcLengthRate(path, workspace.pose, workspace.velocities));
+    }
+    return m_state.getRate(state);
+}
+
+Real CableImpl::calcWitness(const State& state, CableElementIndex obstacle) const {
+    const PathSolution& path = getPath(state, "Cable::getWitness()");
+    if (!m_state.getMode(state).keepsContacts) return 1;
+    return calcContactWitness(m_problem, path, obstacle);
+}
+
+const std::vector<SpatialForce>& CableImpl::calcElementForces(const State& state,
+                                                              const char* method) const {
+    const PathSolution& path = getPath(state, method);
+    CableWorkspace& workspace = m_state.updWorkspace(state);
+    calcUnitForces(path, workspace.pose, workspace.forces);
+    return workspace.forces;
+}
+
+void CableImpl::addBodyForces(const State& state, Real tension,
+                              SimTK::Vector_<SpatialVec>& bodyForces, const char* method) const {
+    const std::vector<SpatialForce>& F_GE = calcElementForces(state, method);
+    for (int e = 0; e < getNumElements(); ++e) {
+        const CableElement& element = m_elements[e];
+        const SpatialVec F = tension * toSpatialVec(F_GE[e]);
+        const SimTK::Rotation& R_GB = getBody(element).getBodyRotation(state);
+        bodyForces[element.body] += SpatialVec(F[0] + (R_GB * element.X_BE.p()) % F[1], F[1]);
+    }
+}
+
+void CableImpl::calcPose(const State& state, PathPose& pose) const {
+    pose.X_GE.resize(m_elements.size());
+    for (std::size_t e = 0; e < m_elements.size(); ++e)
+        pose.X_GE[e] = toPose(getBody(m_elements[e]).getBodyTransform(state) * m_elements[e].X_BE);
+}
+
+void CableImpl::calcVelocities(const State& state, std::vector<SpatialVelocity>& V_GE) const {
+    V_GE.resize(m_elements.size());
+    for (std::size_t e = 0; e < m_elements.size(); ++e) {
+        const SimTK::MobilizedBody& body = getBody(m_elements[e]);
+        V_GE[e] = {
+            toEigen(body.getBodyAngularVelocity(state)),
+            toEigen(body.findStationVelocityInGround(state, m_elements[e].X_BE.p()))};
+    }
+}
+
+void CableImpl::solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace,
+                      PathSolution& path) const {
+    if (!isFinite(workspace.pose)) return makeEmptyPath(getNumElements(), path);
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    if (keepsContacts) {
+        solveKept(start, workspace, path);
+    } else {
+        path.contacts.clear();
+        workspace.solver.solve(m_problem, workspace.pose, path);
+    }
+    const std::chrono::nanoseconds elapsed = Clock::now() - begin;
+    m_counters.nanoseconds += elapsed.count();
+    ++m_counters.solves;
+    if (path.wasCold) ++m_counters.coldSolves;
+    if (path.status == PathStatus::NotConverged) ++m_counters.failures;
+    m_counters.iterations += path.iterations;
+    m_counters.shots += path.shots;
+}
+
+/** Where the start does not lead on, a start anew may, but it counts only if it comes to the same
+contacts. */
+void CableImpl::solveKept(const PathSolution& start, CableWorkspace& workspace,
+                          PathSolution& path) const {
+    path = start;
+    workspace.solver.solveKeepingContacts(m_problem, workspace.pose, path);
+    if (path.status != PathStatus::NotConverged || !m_options.allowsColdStart) return;
+    PathSolution fresh;
+    workspace.solver.solve(m_problem, workspace.pose, fresh);
+    if (fresh.status != PathStatus::NotConverged && haveSameContacts(fresh, path)) path = fresh;
+}
+
+PathSolution CableImpl::calcSettledPath(const State& state) const {
+    PathSolution path = getPath(state, "Cable::fixContacts()");
+    CableWorkspace& workspace = m_state.updWorkspace(state);
+    if (path.status != PathStatus::NotConverged)
+        settleContacts(workspace.solver, m_problem, workspace.pose, path);
+    return path;
+}
+
+void CableImpl::keepContacts(State& state, const PathSolution& path) const {
+    CableMode mode = m_state.getMode(state);
+    mode.keepsContacts = true;
+    m_state.setMode(state, mode);
+    m_state.setStart(state, path);
+}
+
+void CableImpl::releaseContacts(State& state) const {
+    CableMode mode = m_state.getMode(state);
+    mode.keepsContacts = false;
+    m_state.setMode(state, mode);
+}
+
+void CableImpl::handleContactEvent(State& state) const {
+    const CableMode& mode = m_state.getMode(state);
+    if (mode.isDisabled || !mode.keepsContacts) return;
+    m_cables.getSystem().realize(state, Stage::Position);
+    const PathSolution before = getPath(state, "ContactEventHandler::handleEvent()");
+    PathSolution after = before;
+    CableWorkspace& workspace = m_state.updWorkspace(state);
+    // Another obstacle's handler may have settled this one's contact already.
+    if (!settleContacts(workspace.solver, m_problem, workspace.pose, after)) return;
+    m_state.setStart(state, after);
+    report(state, before, after);
+}
+
+void CableImpl::report(const State& state, const PathSolution& before,
+                       const PathSolution& after) const {
+    for (CableElementIndex e(0); e < getNumElements(); ++e) {
+        if (before.contacts[e].isTouched == after.contacts[e].isTouched) continue;
+        ++m_counters.events;
+        using Kind = ContactEvent::Kind;
+        const Kind kind = after.contacts[e].isTouched ? Kind::Made : Kind::Lost;
+        if (m_listener)
+            m_listener({state.getTime(), m_index, e, kind, before.length, after.length});
+    }
+}
+
+CableStatistics CableImpl::getStatistics() const {
+    CableStatistics result;
+    result.numSolves = m_counters.solves;
+    result.numColdSolves = m_counters.coldSolves;
+    result.numFailures = m_counters.failures;
+    result.numIterations = m_counters.iterations;
+    result.numShots = m_counters.shots;
+    result.numContactEvents = m_counters.events;
+    result.seconds = 1e-9 * static_cast<double>(m_counters.nanoseconds);
+    return result;
+}
+
+void CableImpl::resetStatistics() const {
+    for (std::atomic<long>* counter :
+         {&m_counters.solves, &m_counters.coldSolves, &m_counters.failures, &m_counters.iterations,
+          &m_counters.shots, &m_counters.events, &m_counters.nanoseconds})
+        *counter = 0;
+}
+
+}  // namespace tautline

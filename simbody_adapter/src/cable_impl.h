@@ -1,0 +1,105 @@
+#pragma once
+#include <Simbody.h>
+
+#include <atomic>
+
+#include "cable_path_state.h"
+#include "tautline/path_verification.h"
+#include "tautline/simbody/cable.h"
+
+namespace tautline {
+
+/** One element of a cable and where it is fixed. */
+struct CableElement {
+    std::string name;
+    SimTK::MobilizedBodyIndex body;
+    SimTK::Transform X_BE;
+    std::shared_ptr<const Surface> surface;  ///< null: a point
+    std::optional<SimTK::Vec3> hint_S;
+};
+
+/** What stands behind a Cable handle. */
+class CableImpl {
+public:
+    CableImpl(CableSubsystemImpl& cables, CableIndex index, std::string name);
+    CableImpl(const CableImpl&) = delete;
+
+    void setEnds(CableElement origin, CableElement insertion);
+    CableElementIndex insertElement(CableElement element);
+    void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
+    void setOptions(const PathSolverOptions& options);
+    void setDisabledByDefault(bool isDisabled);
+    void setListener(std::function<void(const ContactEvent&)> listener) {
+        m_listener = std::move(listener);
+    }
+
+    const std::string& getName() const { return m_name; }
+    CableIndex getIndex() const { return m_index; }
+    const CableSubsystemImpl& getSubsystemImpl() const { return m_cables; }
+    CableSubsystemImpl& updSubsystemImpl() { return m_cables; }
+    const PathSolverOptions& getOptions() const { return m_options; }
+    bool isDisabledByDefault() const { return m_defaultMode.isDisabled; }
+    int getNumElements() const { return static_cast<int>(m_elements.size()); }
+    const CableElement& getElement(CableElementIndex element) const;
+    const CableElement& getObstacle(CableElementIndex element) const;
+    const SimTK::MobilizedBody& getBody(const CableElement& element) const;
+
+    void realizeTopology(SimTK::State& state);
+    void realizePosition(const SimTK::State& state) const;
+
+    const CablePathState& getPathState() const { return m_state; }
+    bool isDisabled(const SimTK::State& state) const { return m_state.getMode(state).isDisabled; }
+    void setDisabled(SimTK::State& state, bool isDisabled) const;
+
+    /** @param method   of the API, for the message if the state is not realized to Position */
+    const PathSolution& getPath(const SimTK::State& state, const char* method) const;
+    const PathPose& getPose(const SimTK::State& state) const {
+        return m_state.updWorkspace(state).pose;
+    }
+    const PathProblem& getProblem() const { return m_problem; }
+    SimTK::Real getLengthRate(const SimTK::State& state) const;
+    SimTK::Real calcWitness(const SimTK::State& state, CableElementIndex obstacle) const;
+    /** About element origins, in ground; valid until the next call with this state. */
+    const std::vector<SpatialForce>& calcElementForces(const SimTK::State& state,
+                                                       const char* method) const;
+    void addBodyForces(const SimTK::State& state, SimTK::Real tension,
+                       SimTK::Vector_<SimTK::SpatialVec>& bodyForces, const char* method) const;
+
+    /** The path of this state with all contacts settled, as a study starts from it. */
+    PathSolution calcSettledPath(const SimTK::State& state) const;
+    void keepContacts(SimTK::State& state, const PathSolution& path) const;
+    void releaseContacts(SimTK::State& state) const;
+    void handleContactEvent(SimTK::State& state) const;
+
+    CableStatistics getStatistics() const;
+    void resetStatistics() const;
+
+private:
+    void calcPose(const SimTK::State& state, PathPose& pose) const;
+    void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
+    void solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace,
+               PathSolution& path) const;
+    void solveKept(const PathSolution& start, CableWorkspace& workspace, PathSolution& path) const;
+    void report(const SimTK::State& state, const PathSolution& before,
+                const PathSolution& after) const;
+
+    CableSubsystemImpl& m_cables;
+    CableIndex m_index;
+    std::string m_name;
+    std::vector<CableElement> m_elements;
+    PathSolverOptions m_options;
+    CableMode m_defaultMode;
+    std::function<void(const ContactEvent&)> m_listener;
+
+    PathProblem m_problem;  ///< built at Topology
+    CablePathState m_state;
+
+    /** Counted by all threads that realize States. */
+    struct Counters {
+        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0},
+            nanoseconds{0};
+    };
+    mutable Counters m_counters;
+};
+
+}  // namespace tautline

@@ -1,0 +1,71 @@
+#include "cable_path_state.h"
+
+namespace tautline {
+
+using SimTK::Stage;
+using SimTK::State;
+using SimTK::Value;
+
+void CablePathState::allocate(const SimTK::Subsystem::Guts& cables, State& state,
+                              const CableMode& defaultMode, const PathSolverOptions& options) {
+    m_cables = &cables;
+    m_mode = cables.allocateDiscreteVariable(state, Stage::Position,
+                                             new Value<CableMode>(defaultMode));
+    m_path = cables.allocateAutoUpdateDiscreteVariable(
+        state, Stage::Position, new Value<PathSolution>(PathSolution()), Stage::Position);
+    m_rate =
+        cables.allocateLazyCacheEntry(state, Stage::Velocity, new Value<SimTK::Real>(SimTK::NaN));
+    m_workspace = cables.allocateLazyCacheEntry(
+        state, Stage::Topology, new Value<CableWorkspace>(CableWorkspace(options)));
+}
+
+const CableMode& CablePathState::getMode(const State& state) const {
+    return Value<CableMode>::downcast(m_cables->getDiscreteVariable(state, m_mode));
+}
+
+void CablePathState::setMode(State& state, const CableMode& mode) const {
+    Value<CableMode>::updDowncast(m_cables->updDiscreteVariable(state, m_mode)) = mode;
+}
+
+const PathSolution& CablePathState::getStart(const State& state) const {
+    return Value<PathSolution>::downcast(m_cables->getDiscreteVariable(state, m_path));
+}
+
+void CablePathState::setStart(State& state, const PathSolution& start) const {
+    Value<PathSolution>::updDowncast(m_cables->updDiscreteVariable(state, m_path)) = start;
+}
+
+bool CablePathState::isPathRealized(const State& state) const {
+    return m_cables->isDiscreteVarUpdateValueRealized(state, m_path);
+}
+
+const PathSolution& CablePathState::getPath(const State& state) const {
+    return Value<PathSolution>::downcast(m_cables->getDiscreteVarUpdateValue(state, m_path));
+}
+
+PathSolution& CablePathState::updPath(const State& state) const {
+    return Value<PathSolution>::updDowncast(m_cables->updDiscreteVarUpdateValue(state, m_path));
+}
+
+void CablePathState::markPathRealized(const State& state) const {
+    m_cables->markDiscreteVarUpdateValueRealized(state, m_path);
+}
+
+bool CablePathState::isRateRealized(const State& state) const {
+    return m_cables->isCacheValueRealized(state, m_rate);
+}
+
+SimTK::Real CablePathState::getRate(const State& state) const {
+    return Value<SimTK::Real>::downcast(m_cables->getCacheEntry(state, m_rate));
+}
+
+void CablePathState::setRate(const State& state, SimTK::Real rate) const {
+    Value<SimTK::Real>::updDowncast(m_cables->updCacheEntry(state, m_rate)) = rate;
+    m_cables->markCacheValueRealized(state, m_rate);
+}
+
+CableWorkspace& CablePathState::updWorkspace(const State& state) const {
+    return Value<CableWorkspace>::updDowncast(m_cables->updCacheEntry(state, m_workspace));
+}
+
+}  // namespace tautline

@@ -1,0 +1,68 @@
+#pragma once
+#include <Simbody.h>
+
+#include <vector>
+
+#include "tautline/path_solver.h"
+
+namespace tautline {
+
+/** How a cable's path is found in a State. */
+struct CableMode {
+    bool isDisabled = false;
+    bool keepsContacts = false;  ///< false: found anew in every pose
+};
+
+/** Room for the solves of one cable in one State, kept in the State's cache so that States can be realized
+side by side. Nothing in it changes an answer; the solver's scratch is not worth copying. */
+struct CableWorkspace {
+    explicit CableWorkspace(const PathSolverOptions& options) : solver(options) {}
+    CableWorkspace(const CableWorkspace& source)
+        : solver(source.solver.getOptions()), pose(source.pose) {}
+    CableWorkspace& operator=(const CableWorkspace& source) {
+        solver = PathSolver(source.solver.getOptions());
+        pose = source.pose;
+        return *this;
+    }
+
+    PathSolver solver;
+    PathPose pose;  ///< of the path last solved
+    std::vector<SpatialVelocity> velocities;
+    std::vector<SpatialForce> forces;
+};
+
+/** Where a cable's variables and cache entries stand in a State.
+
+Mode: a discrete variable that invalidates Position. Path: an auto-update discrete variable; its value is
+the start of the next solve, contact set included, its update value the path of the present pose, which a
+study swaps in when it accepts a step. Rate: cached at Velocity. */
+class CablePathState {
+public:
+    /** To be called from realizeTopology(). */
+    void allocate(const SimTK::Subsystem::Guts& cables, SimTK::State& state,
+                  const CableMode& defaultMode, const PathSolverOptions& options);
+
+    const CableMode& getMode(const SimTK::State& state) const;
+    void setMode(SimTK::State& state, const CableMode& mode) const;
+
+    const PathSolution& getStart(const SimTK::State& state) const;
+    void setStart(SimTK::State& state, const PathSolution& start) const;
+
+    bool isPathRealized(const SimTK::State& state) const;
+    const PathSolution& getPath(const SimTK::State& state) const;
+    PathSolution& updPath(const SimTK::State& state) const;
+    void markPathRealized(const SimTK::State& state) const;
+
+    bool isRateRealized(const SimTK::State& state) const;
+    SimTK::Real getRate(const SimTK::State& state) const;
+    void setRate(const SimTK::State& state, SimTK::Real rate) const;
+
+    CableWorkspace& updWorkspace(const SimTK::State& state) const;
+
+private:
+    const SimTK::Subsystem::Guts* m_cables = nullptr;
+    SimTK::DiscreteVariableIndex m_mode, m_path;
+    SimTK::CacheEntryIndex m_rate, m_workspace;
+};
+
+}  // namespace tautline

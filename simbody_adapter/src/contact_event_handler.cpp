@@ -1,0 +1,29 @@
+#include "contact_event_handler.h"
+
+#include "cable_impl.h"
+
+namespace tautline {
+namespace {
+
+/** An event is localized to accuracy x time scale x this window: 1e-10 s at accuracy 1e-3 and Simbody's
+time scale of 0.1 s, so that speeds of m/s cross the contact by less than 1e-9 m. */
+constexpr SimTK::Real kLocalizationWindow = 1e-6;
+
+}  // namespace
+
+ContactEventHandler::ContactEventHandler(const CableImpl& cable, CableElementIndex obstacle)
+    : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_obstacle(obstacle) {
+    getTriggerInfo()
+        .setTriggerOnRisingSignTransition(false)
+        .setRequiredLocalizationTimeWindow(kLocalizationWindow);
+}
+
+SimTK::Real ContactEventHandler::getValue(const SimTK::State& state) const {
+    return m_cable.isDisabled(state) ? 1 : m_cable.calcWitness(state, m_obstacle);
+}
+
+void ContactEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {
+    m_cable.handleContactEvent(state);
+}
+
+}  // namespace tautline

@@ -1,0 +1,195 @@
+#include <cstdio>
+#include <thread>
+
+#include "adapter_scenes.h"
+
+namespace tautline::testing {
+namespace {
+
+TEST(CableKinematics, AllObstaclesOfTheMechanismAreTouched) {
+    MechanismScene scene;
+    for (const Real number : {0.0, 1.0, 2.0, 3.0}) {
+        State state = scene.makeState(number);
+        scene.system.realize(state, Stage::Position);
+        EXPECT_EQ(scene.cable.getStatus(state), PathStatus::Solved);
+        EXPECT_TRUE(scene.cable.calcVerification(state).isMinimum());
+        EXPECT_TRUE(scene.cable.isTouched(state, scene.sphere));
+        EXPECT_TRUE(scene.cable.isTouched(state, scene.cylinder));
+        EXPECT_TRUE(scene.cable.isTouched(state, scene.ellipsoid));
+        SimTK::Vec3 P_G, Q_G;
+        ASSERT_TRUE(scene.cable.getContactPoints(state, scene.sphere, P_G, Q_G));
+        EXPECT_GT(scene.cable.getArcLength(state, scene.sphere), (Q_G - P_G).norm());
+        EXPECT_LT(scene.cable.getPathError(state), 1e-11);
+    }
+}
+
+/** Drifts every coordinate with its own speed, quaternions as the speeds turn them. */
+State drift(const MechanismScene& scene, const State& state, Real time) {
+    State moved = state;
+    scene.system.realize(state, Stage::Velocity);
+    moved.updQ() = state.getQ() + time * state.getQDot();
+    scene.matter.normalizeQuaternions(moved);
+    scene.system.realize(moved, Stage::Velocity);
+    return moved;
+}
+
+TEST(CableKinematics, RateIsTheDerivativeOfLength) {
+    MechanismScene scene;
+    Real worst = 0;
+    for (const Real number : {0.0, 0.7, 1.4, 2.1, 2.8}) {
+        const State state = scene.makeState(number);
+        // Central difference: truncation h^2/6 L''' and rounding 1e-15/h balance near 1e-5.
+        const Real h = 1e-5;
+        const Real difference = (scene.cable.getLength(drift(scene, state, h)) -
+                                 scene.cable.getLength(drift(scene, state, -h))) /
+                                (2 * h);
+        const Real rate = scene.cable.getLengthRate(state);
+        worst = std::max(worst, std::abs(rate - difference) / std::abs(rate));
+    }
+    std::printf("[measured] rate against difference quotient: %.1e\n", worst);
+    EXPECT_LT(worst, 1e-7);
+}
+
+TEST(CableKinematics, PowerOfTheForcesIsMinusTensionTimesRate) {
+    MechanismScene scene;
+    for (const Real number : {0.0, 0.7, 1.4, 2.1}) {
+        State state = scene.makeState(number);
+        scene.system.realize(state, Stage::Velocity);
+        const Real rate = scene.cable.getLengthRate(state);
+        EXPECT_NEAR(scene.cable.calcPower(state, 50), -50 * rate, 50e-10 * std::abs(rate));
+        SimTK::Vector f;
+        scene.cable.calcUnitMobilityForces(state, f);
+        EXPECT_NEAR(~f * state.getU(), -rate, 1e-10 * std::abs(rate));
+    }
+}
+
+TEST(CableKinematics, ForcesAndMomentsBalance) {
+    MechanismScene scene;
+    State state = scene.makeState(0.3);
+    scene.system.realize(state, Stage::Position);
+    SimTK::Vector_<SimTK::SpatialVec> F_G;
+    scene.cable.calcUnitBodyForces(state, F_G);
+    SimTK::Vec3 force(0), moment(0);
+    for (SimTK::MobilizedBodyIndex b(0); b < F_G.size(); ++b) {
+        const SimTK::Vec3 p_GB = scene.matter.getMobilizedBody(b).getBodyOriginLocation(state);
+        force += F_G[b][1];
+        moment += F_G[b][0] + p_GB % F_G[b][1];
+    }
+    EXPECT_LT(force.norm(), 1e-14);
+    EXPECT_LT(moment.norm(), 1e-13);
+    SimTK::Vector_<SimTK::SpatialVec> applied = 2.0 * F_G;
+    scene.cable.applyBodyForces(state, 3, applied);
+    for (SimTK::MobilizedBodyIndex b(0); b < F_G.size(); ++b)
+        EXPECT_LT((applied[b] - 5.0 * F_G[b]).norm(), 1e-14);
+}
+
+TEST(CableKinematics, MomentArmIsMinusTheDerivativeOfLength) {
+    MechanismScene scene;
+    const State state = scene.makeState(0.4);
+    scene.system.realize(state, Stage::Position);
+    const SimTK::MobilizedBodyIndex pinned(1), slider(4);
+    for (const SimTK::MobilizedBodyIndex body : {pinned, slider}) {
+        const Real h = 1e-5;
+        Real length[2];
+        for (int side : {0, 1}) {
+            State moved = state;
+            const MobilizedBody& mobilizedBody = scene.matter.getMobilizedBody(body);
+            const Real q = mobilizedBody.getOneQ(state, 0);
+            mobilizedBody.setOneQ(moved, 0, q + (side ? h : -h));
+            scene.system.realize(moved, Stage::Position);
+            length[side] = scene.cable.getLength(moved);
+        }
+        EXPECT_NEAR(scene.cable.calcMomentArm(state, body, SimTK::MobilizerUIndex(0)),
+                    -(length[1] - length[0]) / (2 * h), 1e-8);
+    }
+    EXPECT_MESSAGE(scene.cable.calcMomentArm(state, slider, SimTK::MobilizerUIndex(1)),
+                   "has no mobility 1");
+}
+
+TEST(CableKinematics, AnAnswerDoesNotDependOnWhatWasAskedBefore) {
+    MechanismScene scene;
+    std::vector<Real> forward, backward;
+    State wandering = scene.system.getDefaultState();
+    for (int i = 0; i < 8; ++i) {
+        wandering.updQ() = scene.makeState(i).getQ();
+        scene.system.realize(wandering, Stage::Position);
+        forward.push_back(scene.cable.getLength(wandering));
+    }
+    for (int i = 7; i >= 0; --i) {
+        wandering.updQ() = scene.makeState(i).getQ();
+        scene.system.realize(wandering, Stage::Position);
+        backward.push_back(scene.cable.getLength(wandering));
+    }
+    for (int i = 0; i < 8; ++i) EXPECT_EQ(forward[i], backward[7 - i]);
+}
+
+TEST(CableKinematics, TrialsWithFixedContactsDoNotDependOnTheirOrder) {
+    MechanismScene scene;
+    State state = scene.makeState(0);
+    scene.system.realize(state, Stage::Position);
+    scene.cable.fixContacts(state);
+    EXPECT_TRUE(scene.cable.areContactsFixed(state));
+    const auto calcLength = [&](Real number) {
+        state.updQ() = scene.makeState(number).getQ();
+        scene.system.realize(state, Stage::Position);
+        return scene.cable.getLength(state);
+    };
+    const Real first = calcLength(0.1), far = calcLength(2.5);
+    EXPECT_EQ(calcLength(0.1), first);
+    EXPECT_EQ(calcLength(2.5), far);
+    // With contacts free the start is another, and so is the rounding, no more.
+    scene.cable.releaseContacts(state);
+    EXPECT_NEAR(calcLength(2.5), far, 1e-13);
+}
+
+TEST(CableKinematics, StatesAreIndependentAndCopiesAlike) {
+    MechanismScene scene;
+    State a = scene.makeState(0.2), b = scene.makeState(2.2);
+    scene.system.realize(a, Stage::Velocity);
+    const Real length = scene.cable.getLength(a), rate = scene.cable.getLengthRate(a);
+    scene.system.realize(b, Stage::Velocity);
+    EXPECT_NE(scene.cable.getLength(b), length);
+    EXPECT_EQ(scene.cable.getLength(a), length);
+    scene.cable.fixContacts(b);
+    EXPECT_FALSE(scene.cable.areContactsFixed(a));
+    const State copy = a;
+    scene.system.realize(copy, Stage::Velocity);
+    EXPECT_EQ(scene.cable.getLength(copy), length);
+    EXPECT_EQ(scene.cable.getLengthRate(copy), rate);
+}
+
+TEST(CableKinematics, ThreadsRealizeStatesSideBySide) {
+    MechanismScene scene;
+    constexpr int n = 6;
+    std::vector<State> states;
+    std::vector<Real> expected(n), found(n);
+    for (int i = 0; i < n; ++i) {
+        states.push_back(scene.makeState(i));
+        State alone = states.back();
+        scene.system.realize(alone, Stage::Velocity);
+        expected[i] = scene.cable.getLengthRate(alone);
+    }
+    std::vector<std::thread> threads;
+    for (int i = 0; i < n; ++i)
+        threads.emplace_back([&, i] {
+            scene.system.realize(states[i], Stage::Velocity);
+            found[i] = scene.cable.getLengthRate(states[i]);
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(found, expected);
+}
+
+TEST(CableKinematics, DrawingPointsFollowThePath) {
+    MechanismScene scene;
+    State state = scene.makeState(0);
+    scene.system.realize(state, Stage::Position);
+    Real length = 0;
+    const std::vector<SimTK::Vec3> points_G = scene.cable.calcDrawingPoints(state, 0.01);
+    for (std::size_t i = 1; i < points_G.size(); ++i)
+        length += (points_G[i] - points_G[i - 1]).norm();
+    // A polygon of arcs turned by 0.01 is short by 0.01^2/24 of them.
+    EXPECT_NEAR(length, scene.cable.getLength(state), 1e-5);
+}
+
+}  // namespace
+}  // namespace tautline::testing

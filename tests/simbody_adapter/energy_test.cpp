@@ -1,0 +1,83 @@
+/** A mass on an elastic string over a fixed obstacle keeps its energy through lift-offs and touchdowns. */
+#include <cstdio>
+
+#include "adapter_scenes.h"
+#include "tautline/simbody/cable_forces.h"
+
+namespace tautline::testing {
+namespace {
+
+/** The mass swings in the x-y plane to the right of the obstacle, held there by springs, so that the string
+from the left bears on the obstacle's top while the mass is low and lifts while it is high: it cannot pass
+to another side, and it is always taut. */
+struct SwingingMass : BareScene {
+    explicit SwingingMass(std::shared_ptr<const Surface> surface) {
+        MobilizedBody::Planar mass(matter.Ground(), Transform(), makeBody(), Transform());
+        body = mass;
+        const SimTK::MobilizerUIndex x(1), y(2);
+        SimTK::Force::MobilityLinearSpring(forces, mass, x, 40, 1.3);
+        SimTK::Force::MobilityLinearSpring(forces, mass, y, 30, 0.3);
+        cable = Cable(cables, matter.Ground(), SimTK::Vec3(-1, 0.2, 0), mass, SimTK::Vec3(0));
+        obstacle = cable.addObstacle(matter.Ground(), Transform(), std::move(surface),
+                                     SimTK::Vec3(0, 0.3, 0));
+        cable.setContactListener([this](const ContactEvent& event) {
+            ++numEvents;
+            jump = std::max(jump, std::abs(event.lengthAfter - event.lengthBefore));
+        });
+        ElasticStringForce(forces, cable, 1.2, 10);
+    }
+
+    State makeStart() {
+        State state = system.realizeTopology();
+        body.setOneQ(state, 1, 1.15);
+        body.setOneQ(state, 2, 0.8);
+        body.setOneU(state, 1, 0.3);
+        return state;
+    }
+
+    MobilizedBody body;
+    Cable cable;
+    CableElementIndex obstacle;
+    int numEvents = 0;
+    Real jump = 0;
+};
+
+void expectEnergyKept(std::shared_ptr<const Surface> surface) {
+    SwingingMass scene(std::move(surface));
+    SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+    integrator.setAccuracy(1e-10);
+    SimTK::TimeStepper stepper(scene.system, integrator);
+    stepper.initialize(scene.makeStart());
+    const Real initial = scene.system.calcEnergy(integrator.getState());
+    Real largestKinetic = 0, worst = 0, shortest = SimTK::Infinity;
+    for (int i = 1; i <= 2000; ++i) {
+        stepper.stepTo(0.01 * i);
+        const State& state = integrator.getState();
+        scene.system.realize(state, Stage::Dynamics);
+        largestKinetic = std::max(largestKinetic, scene.system.calcKineticEnergy(state));
+        worst = std::max(worst, std::abs(scene.system.calcEnergy(state) - initial));
+        shortest = std::min(shortest, scene.cable.getLength(state));
+    }
+    const CableStatistics statistics = scene.cable.getStatistics();
+    std::printf(
+        "[measured] energy error %.1e of the largest kinetic energy, %d events, length jump %.1e m, "
+        "%ld solves, %.2f iterations and %.2f us each, %ld failed, %d steps\n",
+        worst / largestKinetic, scene.numEvents, scene.jump, statistics.numSolves,
+        double(statistics.numIterations) / double(statistics.numSolves),
+        1e6 * statistics.seconds / double(statistics.numSolves), statistics.numFailures,
+        integrator.getNumStepsTaken());
+    EXPECT_GT(shortest, 1.2);
+    EXPECT_GE(scene.numEvents, 8);
+    EXPECT_LT(scene.jump, 1e-9);
+    EXPECT_EQ(statistics.numFailures, 0);
+    EXPECT_LT(worst, 1e-8 * largestKinetic);
+}
+
+TEST(Energy, IsKeptOverACylinder) { expectEnergyKept(std::make_shared<Cylinder>(0.3)); }
+TEST(Energy, IsKeptOverASphere) { expectEnergyKept(std::make_shared<Sphere>(0.3)); }
+TEST(Energy, IsKeptOverAnEllipsoid) {
+    expectEnergyKept(std::make_shared<Ellipsoid>(Vec3(0.4, 0.3, 0.35)));
+}
+
+}  // namespace
+}  // namespace tautline::testing
