@@ -1,0 +1,61 @@
+/** Warm steps of the weave (tests/support/weave_scene.h), with counters; README.md says how to read them. */
+#include <benchmark/benchmark.h>
+
+#include "support/allocation_counter.h"
+#include "support/weave_scene.h"
+#include "tautline/path_solver.h"
+
+namespace {
+
+using namespace tautline;
+using namespace tautline::testing;
+
+/** Arguments: number of obstacles, and k of the tolerance 10^-k of path error and geodesics. */
+void stepWeave(benchmark::State& state, WeaveScene::Kind kind) {
+    const int count = static_cast<int>(state.range(0));
+    const double tolerance = std::pow(10.0, -static_cast<double>(state.range(1)));
+    const WeaveScene scene(kind, count);
+    PathSolverOptions options;
+    options.pathErrorTolerance = options.geodesics.accuracy = tolerance;
+    options.allowsColdStart = false;
+    PathSolver solver(options);
+    PathPose pose;
+    PathSolution path = scene.makeGuess();
+    constexpr int kWarmUp = 50, kPeriod = 400;
+    // Poses are made beforehand; the motion runs there and back, so that each step starts from its neighbour.
+    std::vector<PathPose> poses(kPeriod);
+    for (int k = 0; k < kPeriod; ++k) scene.calcPose(k * WeaveScene::kTimeStep, poses[k]);
+    int at = 0, direction = 1;
+    const auto step = [&] {
+        if (at + direction < 0 || at + direction >= kPeriod) direction = -direction;
+        at += direction;
+        solver.solve(scene.getProblem(), poses[at], path);
+    };
+    for (int k = 0; k < kWarmUp; ++k) step();
+    double iterations = 0, shots = 0, unsolved = 0;
+    const long allocationsBefore = allocationCount;
+    for (auto _ : state) {
+        step();
+        iterations += path.iterations, shots += path.shots;
+        unsolved += path.status != PathStatus::Solved;
+    }
+    const double allocations = static_cast<double>(allocationCount - allocationsBefore);
+    using benchmark::Counter;
+    state.counters["iterations"] = Counter(iterations, Counter::kAvgIterations);
+    state.counters["shots"] = Counter(shots, Counter::kAvgIterations);
+    state.counters["allocations"] = Counter(allocations, Counter::kAvgIterations);
+    state.counters["unsolved"] = unsolved;
+    // Inverted rate of surfaces: seconds per surface and step.
+    state.counters["s/surface"] = Counter(count, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+BENCHMARK_CAPTURE(stepWeave, Cylinders, WeaveScene::Kind::Cylinders)
+    ->ArgsProduct({{1, 5, 10, 50, 100, 1000}, {3, 9}})
+    ->ArgNames({"n", "tol"})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stepWeave, Ellipsoids, WeaveScene::Kind::Ellipsoids)
+    ->ArgsProduct({{5}, {3, 9}})
+    ->ArgNames({"n", "tol"})
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace

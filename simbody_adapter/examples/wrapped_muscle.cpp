@@ -1,0 +1,32 @@
+// A forearm on a pin, held up by a muscle that wraps over a cylinder at the elbow.
+#include <Simbody.h>
+#include <tautline/cylinder.h>
+#include <tautline/simbody/cable.h>
+#include <tautline/simbody/hill_muscle.h>
+using namespace SimTK;
+
+int main() {
+    MultibodySystem system;
+    SimbodyMatterSubsystem matter(system);
+    GeneralForceSubsystem forces(system);
+    tautline::CableSubsystem cables(system);
+    Force::Gravity(forces, matter, -YAxis, 9.81);
+    const Body::Rigid bone(MassProperties(1.5, Vec3(0), UnitInertia(0.01)));
+    MobilizedBody::Pin forearm(matter.Ground(), bone, Vec3(0, 0.15, 0));
+
+    tautline::Cable path(cables, matter.Ground(), Vec3(-0.02, 0.3, 0), forearm, Vec3(-0.03, 0.1, 0));
+    path.addObstacle(matter.Ground(), Vec3(0), std::make_shared<tautline::Cylinder>(0.03), Vec3(-0.03, 0, 0));
+    tautline::HillMuscleParameters parameters;
+    parameters.tendonSlackLength = 0.12;
+    parameters.defaultExcitation = 0.2;
+    tautline::HillMuscle muscle(forces, path, parameters);
+
+    State state = system.realizeTopology();
+    RungeKuttaMersonIntegrator integrator(system);
+    TimeStepper stepper(system, integrator);
+    stepper.initialize(state);
+    stepper.stepTo(1.0);
+    system.realize(stepper.getState(), Stage::Velocity);
+    std::cout << "elbow " << forearm.getAngle(stepper.getState()) << " rad, muscle "
+              << path.getLength(stepper.getState()) << " m, " << muscle.getTension(stepper.getState()) << " N\n";
+}

@@ -1,0 +1,66 @@
+#include "excitations.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace tautline {
+namespace {
+
+const std::vector<std::string> kMuscles = {"biceps", "triceps"};
+
+void expectRefused(const ExcitationOptions& options, const std::string& message) {
+    int numDefault;
+    try {
+        makeExcitations(options, kMuscles, numDefault);
+        FAIL() << "not refused: " << message;
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+}
+
+std::filesystem::path makeFile(const std::string& rows) {
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "tautline_excitations_test.sto";
+    std::ofstream(file) << "controls\nendheader\n" << rows;
+    return file;
+}
+
+TEST(Excitations, AreTheDefaultUnlessGiven) {
+    int numDefault;
+    const auto excitations = makeExcitations({{"triceps=0.5"}, {}}, kMuscles, numDefault);
+    EXPECT_EQ(numDefault, 1);
+    EXPECT_EQ(excitations.at("biceps")(0.3), kDefaultExcitation);
+    EXPECT_EQ(excitations.at("triceps")(0.3), 0.5);
+}
+
+TEST(Excitations, FromAFileAreLinearAndConstantOutside) {
+    int numDefault;
+    const auto excitations =
+        makeExcitations({{}, makeFile("time\t/forceset/biceps\n1\t0.2\n2\t0.6\n")}, kMuscles, numDefault);
+    EXPECT_EQ(numDefault, 1);
+    EXPECT_EQ(excitations.at("biceps")(0), 0.2);
+    EXPECT_DOUBLE_EQ(excitations.at("biceps")(1.25), 0.3);
+    EXPECT_EQ(excitations.at("biceps")(9), 0.6);
+}
+
+TEST(Excitations, OfTheCommandLineWinOverTheFile) {
+    int numDefault;
+    const auto excitations = makeExcitations({{"biceps=1"}, makeFile("time biceps\n0 0.2\n")}, kMuscles, numDefault);
+    EXPECT_EQ(excitations.at("biceps")(0), 1);
+}
+
+TEST(Excitations, BadOnesAreRefusedByName) {
+    expectRefused({{"biceps"}, {}}, "'biceps' is not of the form NAME=VALUE");
+    expectRefused({{"=1"}, {}}, "NAME=VALUE");
+    expectRefused({{"biceps="}, {}}, "'' is not a number");
+    expectRefused({{"biceps=high"}, {}}, "'high' is not a number");
+    expectRefused({{"biceps=1.5"}, {}}, "an excitation lies in [0, 1]");
+    expectRefused({{"biceps=nan"}, {}}, "an excitation lies in [0, 1]");
+    expectRefused({{"soleus=0.1"}, {}}, "no muscle 'soleus'; it has biceps, triceps");
+    expectRefused({{"biceps=0.1", "biceps=0.2"}, {}}, "given twice");
+    expectRefused({{}, makeFile("time soleus\n0 0.1\n")}, "column 'soleus' is no muscle of the model");
+    expectRefused({{}, makeFile("time biceps\n0 -0.1\n")}, "an excitation lies in [0, 1]");
+}
+
+}  // namespace
+}  // namespace tautline

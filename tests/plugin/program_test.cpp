@@ -1,0 +1,137 @@
+/** The tautline program as a user runs it. */
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "storage_file.h"
+#include "support/shared_data.h"
+
+namespace tautline {
+namespace {
+
+struct Outcome {
+    int exitCode = -1;
+    std::string text;  ///< standard output and error
+};
+
+Outcome runProgram(const std::string& arguments) {
+    Outcome outcome;
+    FILE* pipe = popen((TAUTLINE_PROGRAM " " + arguments + " 2>&1").c_str(), "r");
+    char part[4096];
+    while (std::fgets(part, sizeof part, pipe)) outcome.text += part;
+    const int status = pclose(pipe);
+    outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+}
+
+std::string readAll(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+std::filesystem::path makeFolder(const std::string& name) {
+    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / ("tautline_" + name);
+    std::filesystem::remove_all(folder);
+    return folder;
+}
+
+const std::string kElbow = TAUTLINE_SOURCE_DIR "/models/elbow.osim";
+
+TEST(Program, AnswersHelpAndVersion) {
+    EXPECT_EQ(runProgram("--help").exitCode, 0);
+    EXPECT_NE(runProgram("run --help").text.find("--duration"), std::string::npos);
+    const Outcome version = runProgram("--version");
+    EXPECT_EQ(version.exitCode, 0);
+    EXPECT_EQ(version.text.substr(0, 9), "tautline ");
+}
+
+TEST(Program, RefusesAWrongCommandOrOptionWithANonZeroExit) {
+    for (const char* arguments :
+         {"", "jump", "run", "run --durration 1 x.osim", "run x.osim --duration -1", "run x.osim --duration soon"}) {
+        const Outcome outcome = runProgram(arguments);
+        EXPECT_NE(outcome.exitCode, 0) << arguments;
+        EXPECT_FALSE(outcome.text.empty()) << arguments;
+    }
+}
+
+TEST(Program, NamesAMissingFileInOneLine) {
+    const Outcome outcome = runProgram("run no_such_model.osim");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_NE(outcome.text.find("no_such_model.osim"), std::string::npos);
+    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+}
+
+TEST(Program, BadInputLeavesNoResults) {
+    const std::filesystem::path folder = makeFolder("refused");
+    const Outcome outcome = runProgram("run " + kElbow + " --excitation soleus=1 --out " + folder.string());
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+TEST(Program, SimulatesTheElbowAndWritesStorageFiles) {
+    const std::filesystem::path folder = makeFolder("elbow");
+    const Outcome outcome = runProgram("run " + kElbow + " --duration 0.2 --out " + folder.string());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("excitation: 0.05 for all"), std::string::npos) << outcome.text;
+    const StorageTable states = readStorage(folder / "states.sto"), paths = readStorage(folder / "paths.sto");
+    ASSERT_EQ(states.rows.size(), 21u);
+    ASSERT_EQ(paths.rows.size(), 21u);
+    EXPECT_EQ(states.rows.back()[0], 0.2);
+    const auto column = [&paths](const std::string& label) {
+        const auto at = std::find(paths.labels.begin(), paths.labels.end(), label);
+        EXPECT_NE(at, paths.labels.end()) << label;
+        return static_cast<std::size_t>(at - paths.labels.begin());
+    };
+    // The rate is the slope of the length: central differences over 0.02 s, smooth motion.
+    const std::size_t length = column("/forceset/triceps_long|length"), rate = column("/forceset/triceps_long|rate");
+    for (std::size_t k = 5; k + 1 < paths.rows.size(); ++k)
+        EXPECT_NEAR((paths.rows[k + 1][length] - paths.rows[k - 1][length]) / 0.02, paths.rows[k][rate], 2e-3);
+    EXPECT_GT(paths.rows.back()[column("/forceset/triceps_long|tension")], 0);
+    EXPECT_EQ(readAll(folder / "events.csv").substr(0, 24), "time,path,obstacle,kind\n");
+}
+
+TEST(Program, ASecondRunGivesTheSameFilesBitForBit) {
+    const std::filesystem::path first = makeFolder("first"), second = makeFolder("second");
+    const std::string command = "run " + kElbow + " --duration 0.3 --excitation brachialis=0.4 --out ";
+    ASSERT_EQ(runProgram(command + first.string()).exitCode, 0);
+    ASSERT_EQ(runProgram(command + second.string()).exitCode, 0);
+    for (const char* name : {"states.sto", "paths.sto", "events.csv"})
+        EXPECT_EQ(readAll(first / name), readAll(second / name)) << name;
+}
+
+TEST(Program, ExcitationMovesTheArm) {
+    const std::filesystem::path weak = makeFolder("weak"), strong = makeFolder("strong");
+    ASSERT_EQ(runProgram("run " + kElbow + " --duration 0.3 --out " + weak.string()).exitCode, 0);
+    ASSERT_EQ(
+        runProgram("run " + kElbow + " --duration 0.3 --excitation brachialis=1 --out " + strong.string()).exitCode, 0);
+    const StorageTable a = readStorage(weak / "states.sto"), b = readStorage(strong / "states.sto");
+    std::size_t elbow = 0;
+    for (std::size_t i = 0; i < a.labels.size(); ++i)
+        if (a.labels[i].find("elbow") != std::string::npos && a.labels[i].find("/value") != std::string::npos)
+            elbow = i;
+    ASSERT_GT(elbow, 0u);
+    EXPECT_GT(b.rows.back()[elbow], a.rows.back()[elbow] + 0.05);
+}
+
+TEST(DataProgram, SimulatesASecondOfTheRealArm) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    const std::filesystem::path folder = makeFolder("arm26");
+    const Outcome outcome = runProgram("run " + (shared / "data/opensim/models/arm26.osim").string() +
+                                       " --duration 1 --out " + folder.string());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("Thelen2003Muscle: run through"), std::string::npos);
+    const StorageTable paths = readStorage(folder / "paths.sto");
+    EXPECT_EQ(paths.rows.size(), 101u);
+    for (const auto& row : paths.rows)
+        for (double value : row) EXPECT_TRUE(std::isfinite(value));
+}
+
+}  // namespace
+}  // namespace tautline
