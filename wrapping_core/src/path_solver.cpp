@@ -12,12 +12,19 @@ namespace {
 constexpr double kMaxMove = 0.5;        ///< of P and of the length in one step, in sizes of the surface
 constexpr double kMaxTurn = 0.6;        ///< of the start direction in one step [rad]
 constexpr int kMaxHalvings = 6;         ///< of a Newton step that does not lower the error
+constexpr int kMaxDampings = 8;         ///< tenfold increases of the damping of a least-squares step
 constexpr double kLiftLength = -1e-12;  ///< arcs shorter than this (in sizes) are lifted
 
 double calcNorm(const std::vector<double>& v) {
     double sum = 0;
     for (double x : v) sum += x * x;
     return std::sqrt(sum);
+}
+
+double calcLargest(const std::vector<double>& v) {
+    double largest = 0;
+    for (double x : v) largest = std::max(largest, std::abs(x));
+    return largest;
 }
 
 }  // namespace
@@ -102,36 +109,52 @@ bool PathSolver::iterateContactSet(const PathProblem& problem, const PathPose& p
     return false;
 }
 
-/** Thesis Sec. 4.6: shoot, assemble, solve, correct, until the path error vanishes; with a step limit and
-backtracking against starts from afar. */
+/** Thesis Sec. 4.6: shoot, assemble, solve, correct, until the path error vanishes. Where Newton's step does
+not lower the error, or does not exist (a chord through a sphere's centre leaves the side open, and the
+Jacobian singular), damped least-squares steps take its place. */
 PathSolver::Outcome PathSolver::iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     path.errorHistory.clear();
     m_chain.build(problem, pose, path.contacts);
-    bool isFinite = shootChain(problem, pose, m_options.geodesics, m_chain);
+    const bool isFinite = shootChain(problem, pose, m_options.geodesics, m_chain);
     path.shots += static_cast<int>(m_chain.contacts.size());
     path.pathError = calcPathError(m_chain, m_eps);
     path.errorHistory.push_back(path.pathError);
     for (int i = 0; isFinite && path.pathError > m_options.pathErrorTolerance && i < m_options.maxIterations; ++i) {
-        if (!calcNewtonStep()) break;
-        const double norm = calcNorm(m_eps);
-        double fraction = calcStepFraction(problem), error = kInfinity;
-        bool isLower = false;
-        for (int halving = 0; halving <= kMaxHalvings && !isLower; ++halving, fraction /= 2) {
-            applyStep(problem, fraction);
-            path.shots += static_cast<int>(m_trial.contacts.size());
-            if (!shootChain(problem, pose, m_options.geodesics, m_trial)) continue;
-            error = calcPathError(m_trial, m_trialEps);
-            isLower = calcNorm(m_trialEps) < norm;
-        }
         ++path.iterations;
-        if (!isLower) break;
+        if (!tryNewtonStep(problem, pose, path) && !tryDampedSteps(problem, pose, path)) break;
         std::swap(m_chain, m_trial);
         std::swap(m_eps, m_trialEps);
-        path.pathError = error;
-        path.errorHistory.push_back(error);
+        path.pathError = calcLargest(m_eps);
+        path.errorHistory.push_back(path.pathError);
     }
     storeChain(path);
     return isFinite && path.pathError <= m_options.pathErrorTolerance ? Outcome::Converged : Outcome::Failed;
+}
+
+/** Applies a fraction of m_step to m_trial. @return true if the error is lower there */
+bool PathSolver::tryStep(const PathProblem& problem, const PathPose& pose, double fraction, PathSolution& path) {
+    applyStep(problem, fraction);
+    path.shots += static_cast<int>(m_trial.contacts.size());
+    if (!shootChain(problem, pose, m_options.geodesics, m_trial)) return false;
+    calcPathError(m_trial, m_trialEps);
+    return calcNorm(m_trialEps) < calcNorm(m_eps);
+}
+
+bool PathSolver::tryNewtonStep(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    if (!calcNewtonStep()) return false;
+    double fraction = calcStepFraction(problem);
+    for (int halving = 0; halving <= kMaxHalvings; ++halving, fraction /= 2)
+        if (tryStep(problem, pose, fraction, path)) return true;
+    return false;
+}
+
+bool PathSolver::tryDampedSteps(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    const double norm = calcNorm(m_eps);
+    // Damping of the order of the squared error keeps the convergence quadratic on a singular Jacobian too.
+    double damping = std::min(1e-2, norm * norm);
+    for (int i = 0; i < kMaxDampings; ++i, damping *= 10)
+        if (calcDampedStep(problem, damping) && tryStep(problem, pose, calcStepFraction(problem), path)) return true;
+    return false;
 }
 
 /** m_step = -J^-1 eps (thesis Eqn. 4.57). */
@@ -140,6 +163,32 @@ bool PathSolver::calcNewtonStep() {
     m_step.resize(m_eps.size());
     for (std::size_t i = 0; i < m_eps.size(); ++i) m_step[i] = -m_eps[i];
     return m_jacobian.solveInPlace(m_step);
+}
+
+/** m_step = -D (D J^T J D + damping I)^-1 D J^T eps, D the sizes of the surfaces for moves and 1 for turns. */
+bool PathSolver::calcDampedStep(const PathProblem& problem, double damping) {
+    calcPathErrorJacobian(m_chain, m_jacobian);
+    const int n = static_cast<int>(m_eps.size());
+    const auto scale = [&](int column) {
+        const int element = m_chain.contacts[column / kVariations].element;
+        return column % kVariations == 2 ? 1.0 : problem.getElement(element).surface->getSize();
+    };
+    m_normal.reset(n);
+    m_step.assign(n, 0.0);
+    for (int column = 0; column < n; ++column) {
+        const int first = std::max(0, column - kPathBandwidth), last = std::min(n - 1, column + kPathBandwidth);
+        for (int row = first; row <= last; ++row) {
+            const double entry = m_jacobian.get(row, column) * scale(column);
+            m_step[column] -= entry * m_eps[row];
+            const int from = std::max(0, row - kPathBandwidth), to = std::min(n - 1, row + kPathBandwidth);
+            for (int other = from; other <= to; ++other)
+                m_normal.upd(other, column) += entry * m_jacobian.get(row, other) * scale(other);
+        }
+        m_normal.upd(column, column) += damping;
+    }
+    if (!m_normal.solveInPlace(m_step)) return false;
+    for (int column = 0; column < n; ++column) m_step[column] *= scale(column);
+    return true;
 }
 
 /** Largest fraction of m_step, up to 1, that keeps every geodesic within the step limits. */

@@ -47,6 +47,10 @@ private:
     bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     Outcome iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool calcNewtonStep();
+    bool calcDampedStep(const PathProblem& problem, double damping);
+    bool tryStep(const PathProblem& problem, const PathPose& pose, double fraction, PathSolution& path);
+    bool tryNewtonStep(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    bool tryDampedSteps(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     double calcStepFraction(const PathProblem& problem) const;
     void applyStep(const PathProblem& problem, double fraction);
     bool switchContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
@@ -58,6 +62,7 @@ private:
     ElasticString m_string;
     Chain m_chain, m_trial;
     BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
+    BandedSolver m_normal{2 * kPathBandwidth, 2 * kPathBandwidth};  ///< J^T J + damping, only when Newton fails
     std::vector<double> m_eps, m_trialEps, m_step;
     PathSolution m_previous;
 };
