@@ -1,0 +1,86 @@
+/** What the README shows is what the project does. */
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+const std::string kRoot = TAUTLINE_SOURCE_DIR;
+
+std::string readAll(const std::string& file) {
+    std::ifstream stream(file);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+/** Contents of the fenced blocks of a language. */
+std::vector<std::string> findBlocks(const std::string& text, const std::string& language) {
+    std::vector<std::string> blocks;
+    const std::string fence = "```" + language + "\n";
+    for (std::size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at)) {
+        const std::size_t begin = at + fence.size(), end = text.find("```", begin);
+        blocks.push_back(text.substr(begin, end - begin));
+        at = end + 3;
+    }
+    return blocks;
+}
+
+int run(const std::string& command, std::string& output) {
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    char part[4096];
+    while (std::fgets(part, sizeof part, pipe)) output += part;
+    const int status = pclose(pipe);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(Readme, ShowsTheExampleThatIsCompiled) {
+    const auto blocks = findBlocks(readAll(kRoot + "/README.md"), "cpp");
+    ASSERT_EQ(blocks.size(), 1u);
+    EXPECT_EQ(blocks[0], readAll(kRoot + "/simbody_adapter/examples/wrapped_muscle.cpp"));
+}
+
+TEST(Readme, ExampleHoldsTheForearmUp) {
+    std::string output;
+    ASSERT_EQ(run(TAUTLINE_EXAMPLE, output), 0) << output;
+    double angle = 0, length = 0, tension = 0;
+    ASSERT_EQ(std::sscanf(output.c_str(), "elbow %lf rad, muscle %lf m, %lf N", &angle, &length, &tension), 3)
+        << output;
+    EXPECT_GT(tension, 1);
+    EXPECT_GT(length, 0.15);
+}
+
+TEST(Readme, CommandsOfTheProgramWork) {
+    for (const std::string& block : findBlocks(readAll(kRoot + "/README.md"), "sh")) {
+        std::istringstream lines(block);
+        for (std::string line; std::getline(lines, line);) {
+            const std::string program = "build/bin/tautline";
+            if (line.rfind(program, 0) != 0) continue;
+            std::string output;
+            const std::string arguments = line.substr(program.size());
+            const std::string command =
+                "cd " + kRoot + " && " TAUTLINE_PROGRAM + arguments +
+                (line.find("--out") != std::string::npos ? " --out " + ::testing::TempDir() + "tautline_readme" : "");
+            // A second --out would be refused: put ours in place of the one shown.
+            const std::size_t shown = command.find(" --out results");
+            const std::string runnable =
+                shown == std::string::npos
+                    ? command
+                    : command.substr(0, shown) + command.substr(command.find(" --out ", shown + 1));
+            EXPECT_EQ(run(runnable, output), 0) << runnable << "\n" << output;
+        }
+    }
+}
+
+TEST(Readme, NamesFilesThatExist) {
+    for (const char* file :
+         {"/models/run", "/tests/run", "/models/figures/path.svg", "/models/elbow.osim", "/models/README.md"})
+        EXPECT_TRUE(std::ifstream(kRoot + file).good()) << file;
+}
+
+}  // namespace
