@@ -1,0 +1,47 @@
+#pragma once
+/** How a solved path answers to a motion of its elements: by the implicit function theorem on eps = 0, in one
+O(n) solve per motion. */
+#include "tautline/path_error.h"
+
+namespace tautline {
+
+/** Rates of a path under one motion of its elements (velocities, or any other variation of the poses). */
+struct PathVariation {
+    double lengthRate = 0;     ///< dL/dt [m/s]
+    std::vector<Vec4> xiRate;  ///< per element: natural corrections (s, beta, theta, l) per time; 0 if not touched
+    std::vector<Vec3> PRate,
+        QRate;  ///< per element: velocities of the contact points in ground [m/s]; 0 if not touched
+    std::vector<SpatialForce>
+        forceRate;  ///< per element: rate of its unit force and of its moment about its moving origin
+};
+
+/** Computes variations of a path whose path error vanishes; reuses its memory.
+
+The first derivative of the length with respect to the poses needs no solve: it is minus the unit forces
+(calcUnitForces): dL = -sum (F . dp + M . dphi) over the elements, dphi a rotation vector in ground. The second
+derivatives are the rates of these forces: along a motion, d(dL)/dt = -sum (dF/dt . dp + dM/dt . dphi). They hold
+while the contact set stays as it is: dL is continuous when contact changes, its derivative jumps. */
+class PathSensitivity {
+public:
+    /** Takes the path. All arguments must describe one solve and outlive the calls below.
+    @param path   status Solved, or any path with small path error: the results are those of eps = const */
+    void setPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path);
+
+    /** @param V_GE   velocities of the elements, one per element, in ground
+    @return false if the Jacobian is singular there (a path on the verge of instability); rates are then zero */
+    bool calcVariation(const std::vector<SpatialVelocity>& V_GE, PathVariation& variation);
+
+private:
+    void calcRigidRates(const std::vector<SpatialVelocity>& V_GE);
+    void addXiRates(PathVariation& variation);
+    void calcForceRates(const std::vector<SpatialVelocity>& V_GE, PathVariation& variation) const;
+
+    const PathProblem* m_problem = nullptr;
+    const PathPose* m_pose = nullptr;
+    Chain m_chain;
+    BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
+    std::vector<double> m_rates;
+    std::vector<Vec3> m_ARate, m_BRate;  ///< of the segments' ends
+};
+
+}  // namespace tautline
