@@ -50,8 +50,7 @@ TEST(ElasticString, RefusesBadParameters) {
     StraightCable scene;
     EXPECT_MESSAGE(ElasticStringForce(scene.forces, scene.cable, -1, 100),
                    "cable 'straight': slack length must be finite and not negative, but is -1");
-    EXPECT_MESSAGE(ElasticStringForce(scene.forces, scene.cable, 1, SimTK::NaN),
-                   "stiffness must be finite");
+    EXPECT_MESSAGE(ElasticStringForce(scene.forces, scene.cable, 1, SimTK::NaN), "stiffness must be finite");
     EXPECT_MESSAGE(ElasticStringForce(scene.forces, scene.cable, 1, 1, -2), "damping");
     EXPECT_MESSAGE(ElasticStringForce(scene.forces, Cable(), 1, 1), "empty handle");
     EXPECT_EQ(scene.forces.getNumForces(), 0);
@@ -76,11 +75,10 @@ TEST(ElasticString, PullsNothingWhileDisabled) {
 TEST(PrescribedTension, FromTheStateATimeFunctionOrACallback) {
     StraightCable scene;
     const PrescribedTensionForce constant(scene.forces, scene.cable, 3);
-    const PrescribedTensionForce ramp(
-        scene.forces, scene.cable, new SimTK::Function::Linear(SimTK::Vector(SimTK::Vec2(2, 5))));
-    const PrescribedTensionForce called(scene.forces, scene.cable, [](const State& state) {
-        return -1 + state.getQ()[0];
-    });
+    const PrescribedTensionForce ramp(scene.forces, scene.cable,
+                                      new SimTK::Function::Linear(SimTK::Vector(SimTK::Vec2(2, 5))));
+    const PrescribedTensionForce called(scene.forces, scene.cable,
+                                        [](const State& state) { return -1 + state.getQ()[0]; });
     State state = scene.makeState(2, 0);
     state.setTime(1.5);
     constant.setTension(state, 7);

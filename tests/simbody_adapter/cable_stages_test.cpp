@@ -23,6 +23,7 @@ TEST(CableStages, AskedTooEarlyThrowsTheStageError) {
     scene.system.realize(state, Stage::Velocity);
     EXPECT_NO_THROW(cable.getLengthRate(state));
     state.updQ()[0] += 0.01;
+    scene.system.realize(state, Stage::Time);
     EXPECT_THROW(cable.getLength(state), SimTK::Exception::StageTooLow);
 }
 
@@ -55,16 +56,6 @@ TEST(CableStages, ADisabledCableSolvesNothingAndSaysSo) {
     scene.cable.enable(state);
     scene.system.realize(state, Stage::Position);
     EXPECT_GT(scene.cable.getLength(state), 4);
-}
-
-TEST(CableStages, APoseThatIsNotFiniteEndsWithAStatus) {
-    MechanismScene scene;
-    State state = scene.makeState(0);
-    state.updQ()[0] = SimTK::NaN;
-    scene.system.realize(state, Stage::Position);
-    EXPECT_EQ(scene.cable.getStatus(state), PathStatus::NotConverged);
-    EXPECT_TRUE(scene.cable.calcDrawingPoints(state).empty());
-    EXPECT_FALSE(SimTK::isNaN(scene.cable.getWitness(state, scene.sphere)));
 }
 
 }  // namespace

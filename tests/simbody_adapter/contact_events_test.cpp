@@ -12,12 +12,11 @@ obstacle of radius 0.5: it touches while h < 0. */
 struct BobbingString : BareScene {
     explicit BobbingString(std::shared_ptr<const Surface> surface) {
         const SimTK::Rotation upward(SimTK::Pi / 2, SimTK::ZAxis);  // a slider goes along x
-        MobilizedBody::Slider slider(matter.Ground(), Transform(upward, SimTK::Vec3(0, 0.5, 0)),
-                                     makeBody(), Transform(upward));
+        MobilizedBody::Slider slider(matter.Ground(), Transform(upward, SimTK::Vec3(0, 0.5, 0)), makeBody(),
+                                     Transform(upward));
         SimTK::Motion::Sinusoid(slider, SimTK::Motion::Position, amplitude, frequency, phase);
         cable = Cable(cables, slider, SimTK::Vec3(-2, 0, 0), slider, SimTK::Vec3(1.5, 0, 0));
-        obstacle = cable.addObstacle(matter.Ground(), Transform(), std::move(surface),
-                                     SimTK::Vec3(0, 0.5, 0));
+        obstacle = cable.addObstacle(matter.Ground(), Transform(), std::move(surface), SimTK::Vec3(0, 0.5, 0));
         cable.setContactListener([this](const ContactEvent& event) { events.push_back(event); });
     }
 
@@ -71,8 +70,8 @@ TEST(ContactEvents, OnTimeAtLooseAccuracyToo) {
 }
 
 TEST(ContactEvents, TouchdownAndLiftOffOfEverySurfaceOnTime) {
-    const std::shared_ptr<const Surface> surfaces[] = {
-        std::make_shared<Sphere>(0.5), std::make_shared<Ellipsoid>(Vec3(0.7, 0.5, 0.6))};
+    const std::shared_ptr<const Surface> surfaces[] = {std::make_shared<Sphere>(0.5),
+                                                       std::make_shared<Ellipsoid>(Vec3(0.7, 0.5, 0.6))};
     for (const auto& surface : surfaces) {
         SCOPED_TRACE(surface->getDescription());
         BobbingString scene(surface);
@@ -96,9 +95,7 @@ class MiddleCounter : public SimTK::TriggeredEventHandler {
 public:
     MiddleCounter(const SimTK::MobilizedBody& slider, int& count)
         : TriggeredEventHandler(Stage::Acceleration), m_slider(slider), m_count(count) {}
-    Real getValue(const State& state) const override {
-        return m_slider.getBodyOriginAcceleration(state)[1] + 0.5;
-    }
+    Real getValue(const State& state) const override { return m_slider.getBodyOriginAcceleration(state)[1] + 0.5; }
     void handleEvent(State&, Real, bool&) const override { ++m_count; }
 
 private:
@@ -109,8 +106,7 @@ private:
 TEST(ContactEvents, AUsersHandlerAtALaterStageWorksBesideOurs) {
     BobbingString scene(std::make_shared<Cylinder>(0.5));
     int count = 0;
-    scene.system.addEventHandler(new MiddleCounter(
-        scene.matter.getMobilizedBody(SimTK::MobilizedBodyIndex(1)), count));
+    scene.system.addEventHandler(new MiddleCounter(scene.matter.getMobilizedBody(SimTK::MobilizedBodyIndex(1)), count));
     scene.simulate(1e-6, 6);
     expectEventsOnTime(scene, 5, 1e-6);
     EXPECT_GE(count, 5);
@@ -150,14 +146,13 @@ TEST(ContactEvents, TheWitnessIsSmoothThroughTheEvent) {
 TEST(ContactEvents, TwoObstaclesTouchedAtOneInstantAreBothFound) {
     BareScene scene;
     const SimTK::Rotation upward(SimTK::Pi / 2, SimTK::ZAxis);
-    MobilizedBody::Slider slider(scene.matter.Ground(), Transform(upward, SimTK::Vec3(0, 0.5, 0)),
-                                 makeBody(), Transform(upward));
+    MobilizedBody::Slider slider(scene.matter.Ground(), Transform(upward, SimTK::Vec3(0, 0.5, 0)), makeBody(),
+                                 Transform(upward));
     SimTK::Motion::Sinusoid(slider, SimTK::Motion::Position, 0.3, 3, 0.4);
     Cable cable(scene.cables, slider, SimTK::Vec3(-3, 0, 0), slider, SimTK::Vec3(3, 0, 0));
     int made = 0, lost = 0;
     for (const Real x : {-1.0, 1.0})
-        cable.addObstacle(scene.matter.Ground(), Transform(SimTK::Vec3(x, 0, 0)),
-                          std::make_shared<Cylinder>(0.5));
+        cable.addObstacle(scene.matter.Ground(), Transform(SimTK::Vec3(x, 0, 0)), std::make_shared<Cylinder>(0.5));
     cable.setContactListener([&](const ContactEvent& event) {
         ++(event.kind == Kind::Made ? made : lost);
         EXPECT_LT(std::abs(event.lengthAfter - event.lengthBefore), 1e-9);

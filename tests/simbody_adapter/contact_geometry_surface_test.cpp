@@ -25,19 +25,18 @@ TEST(ContactGeometrySurfaceTest, IsPositiveOutsideAndAsCurvedAsItsTwin) {
 TEST(ContactGeometrySurfaceTest, WrapsLikeItsTwin) {
     const auto calcLength = [](std::shared_ptr<const Surface> surface) {
         BareScene scene;
-        Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(-2, 0.1, 0.1),
-                    scene.matter.Ground(), SimTK::Vec3(2, 0.2, -0.3));
-        cable.addObstacle(scene.matter.Ground(), Transform(), std::move(surface),
-                          SimTK::Vec3(0, 0.6, 0));
+        Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(-2, 0.1, 0.1), scene.matter.Ground(),
+                    SimTK::Vec3(2, 0.2, -0.3));
+        cable.addObstacle(scene.matter.Ground(), Transform(), std::move(surface), SimTK::Vec3(0, 0.6, 0));
         const State state = scene.system.realizeTopology();
         scene.system.realize(state, Stage::Position);
         EXPECT_EQ(cable.getStatus(state), PathStatus::Solved);
         EXPECT_TRUE(cable.isTouched(state, CableElementIndex(1)));
         return cable.getLength(state);
     };
-    EXPECT_NEAR(calcLength(std::make_shared<ContactGeometrySurface>(
-                    SimTK::ContactGeometry::Ellipsoid({0.5, 0.6, 0.7}))),
-                calcLength(std::make_shared<Ellipsoid>(Vec3(0.5, 0.6, 0.7))), 1e-9);
+    EXPECT_NEAR(
+        calcLength(std::make_shared<ContactGeometrySurface>(SimTK::ContactGeometry::Ellipsoid({0.5, 0.6, 0.7}))),
+        calcLength(std::make_shared<Ellipsoid>(Vec3(0.5, 0.6, 0.7))), 1e-9);
 }
 
 TEST(ContactGeometrySurfaceTest, RefusesWhatIsNotSmooth) {

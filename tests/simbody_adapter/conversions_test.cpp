@@ -19,8 +19,7 @@ TEST(Conversions, MatricesKeepRowsAndColumns) {
 }
 
 TEST(Conversions, PosesMapPointsAlikeAndComeBack) {
-    const SimTK::Rotation R(SimTK::BodyRotationSequence, 0.3, SimTK::XAxis, -1.1, SimTK::YAxis, 2.0,
-                            SimTK::ZAxis);
+    const SimTK::Rotation R(SimTK::BodyRotationSequence, 0.3, SimTK::XAxis, -1.1, SimTK::YAxis, 2.0, SimTK::ZAxis);
     const SimTK::Transform X(R, SimTK::Vec3(1, 2, 3));
     const SimTK::Vec3 p(0.4, -0.5, 0.6);
     EXPECT_LT((toSimTK(toPose(X) * toEigen(p)) - X * p).norm(), 1e-15);

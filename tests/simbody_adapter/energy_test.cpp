@@ -9,29 +9,32 @@ namespace {
 
 /** The mass swings in the x-y plane to the right of the obstacle, held there by springs, so that the string
 from the left bears on the obstacle's top while the mass is low and lifts while it is high: it cannot pass
-to another side, and it is always taut. */
+to another side, and it is always taut.
+
+The springs are soft on purpose: Simbody comes to an event by cubic interpolation within the step, an error
+of order (frequency x step)^4 at each, which at ten times the stiffness is 1.4e-9 of the energy per event and
+a hundred times what the integrator loses without events. */
 struct SwingingMass : BareScene {
     explicit SwingingMass(std::shared_ptr<const Surface> surface) {
         MobilizedBody::Planar mass(matter.Ground(), Transform(), makeBody(), Transform());
         body = mass;
         const SimTK::MobilizerUIndex x(1), y(2);
-        SimTK::Force::MobilityLinearSpring(forces, mass, x, 40, 1.3);
-        SimTK::Force::MobilityLinearSpring(forces, mass, y, 30, 0.3);
+        SimTK::Force::MobilityLinearSpring(forces, mass, x, 4, 1.3);
+        SimTK::Force::MobilityLinearSpring(forces, mass, y, 3, 0.3);
         cable = Cable(cables, matter.Ground(), SimTK::Vec3(-1, 0.2, 0), mass, SimTK::Vec3(0));
-        obstacle = cable.addObstacle(matter.Ground(), Transform(), std::move(surface),
-                                     SimTK::Vec3(0, 0.3, 0));
+        obstacle = cable.addObstacle(matter.Ground(), Transform(), std::move(surface), SimTK::Vec3(0, 0.3, 0));
         cable.setContactListener([this](const ContactEvent& event) {
             ++numEvents;
             jump = std::max(jump, std::abs(event.lengthAfter - event.lengthBefore));
         });
-        ElasticStringForce(forces, cable, 1.2, 10);
+        ElasticStringForce(forces, cable, 1.2, 1);
     }
 
     State makeStart() {
         State state = system.realizeTopology();
         body.setOneQ(state, 1, 1.15);
         body.setOneQ(state, 2, 0.8);
-        body.setOneU(state, 1, 0.3);
+        body.setOneU(state, 1, 0.1);
         return state;
     }
 
@@ -64,8 +67,7 @@ void expectEnergyKept(std::shared_ptr<const Surface> surface) {
         "%ld solves, %.2f iterations and %.2f us each, %ld failed, %d steps\n",
         worst / largestKinetic, scene.numEvents, scene.jump, statistics.numSolves,
         double(statistics.numIterations) / double(statistics.numSolves),
-        1e6 * statistics.seconds / double(statistics.numSolves), statistics.numFailures,
-        integrator.getNumStepsTaken());
+        1e6 * statistics.seconds / double(statistics.numSolves), statistics.numFailures, integrator.getNumStepsTaken());
     EXPECT_GT(shortest, 1.2);
     EXPECT_GE(scene.numEvents, 8);
     EXPECT_LT(scene.jump, 1e-9);
@@ -73,8 +75,12 @@ void expectEnergyKept(std::shared_ptr<const Surface> surface) {
     EXPECT_LT(worst, 1e-8 * largestKinetic);
 }
 
-TEST(Energy, IsKeptOverACylinder) { expectEnergyKept(std::make_shared<Cylinder>(0.3)); }
-TEST(Energy, IsKeptOverASphere) { expectEnergyKept(std::make_shared<Sphere>(0.3)); }
+TEST(Energy, IsKeptOverACylinder) {
+    expectEnergyKept(std::make_shared<Cylinder>(0.3));
+}
+TEST(Energy, IsKeptOverASphere) {
+    expectEnergyKept(std::make_shared<Sphere>(0.3));
+}
 TEST(Energy, IsKeptOverAnEllipsoid) {
     expectEnergyKept(std::make_shared<Ellipsoid>(Vec3(0.4, 0.3, 0.35)));
 }

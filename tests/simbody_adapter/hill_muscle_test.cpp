@@ -33,8 +33,8 @@ TEST(HillMuscleTest, TensionsComputedByHand) {
     EXPECT_NEAR(scene.muscle.getTension(scene.makeState(0.3, 0, 0.5)), 500, 1e-9);
     EXPECT_EQ(scene.muscle.getTension(scene.makeState(0.3, 0, 0)), 0);
     // Stretched by 30 %: exp(-0.09/0.45) = exp(-0.2), passive (e^2 - 1)/(e^4 - 1) = 1/(e^2 + 1).
-    EXPECT_NEAR(scene.muscle.getTension(scene.makeState(0.33, 0, 1)),
-                1000 * (std::exp(-0.2) + 1 / (std::exp(2.0) + 1)), 1e-9);
+    EXPECT_NEAR(scene.muscle.getTension(scene.makeState(0.33, 0, 1)), 1000 * (std::exp(-0.2) + 1 / (std::exp(2.0) + 1)),
+                1e-9);
     // Shortening at half the maximal velocity, 0.5 m/s: 0.5/(1 + 2) = 1/6.
     EXPECT_NEAR(scene.muscle.getTension(scene.makeState(0.3, -0.5, 1)), 1000 / 6.0, 1e-9);
     EXPECT_EQ(scene.muscle.getTension(scene.makeState(0.3, -1.2, 1)), 0);
@@ -53,8 +53,7 @@ TEST(HillMuscleTest, PennationKeepsTheThickness) {
     EXPECT_NEAR(scene.muscle.getFibreLength(optimal), 0.1, 1e-15);
     EXPECT_NEAR(scene.muscle.getPennation(optimal), SimTK::Pi / 6, 1e-14);
     EXPECT_NEAR(scene.muscle.getFibreVelocity(optimal), 0.4 * std::cos(SimTK::Pi / 6), 1e-14);
-    EXPECT_NEAR(scene.muscle.getTension(scene.makeState(0.2 + projection, 0, 1)),
-                1000 * std::cos(SimTK::Pi / 6), 1e-9);
+    EXPECT_NEAR(scene.muscle.getTension(scene.makeState(0.2 + projection, 0, 1)), 1000 * std::cos(SimTK::Pi / 6), 1e-9);
     // Projection 0.05: fibre sqrt(0.05^2 + 0.05^2), 45 degrees.
     State shorter = scene.makeState(0.25, 0, 1);
     EXPECT_NEAR(scene.muscle.getFibreLength(shorter), 0.05 * std::sqrt(2), 1e-15);
@@ -84,13 +83,11 @@ TEST(HillMuscleTest, ActivationFollowsItsTimeConstants) {
     SimTK::TimeStepper stepper(scene.system, integrator);
     stepper.initialize(state);
     stepper.stepTo(0.02);
-    EXPECT_NEAR(scene.muscle.getActivation(integrator.getState()),
-                0.8 - 0.7 * std::exp(-0.02 / 0.01), 1e-9);
+    EXPECT_NEAR(scene.muscle.getActivation(integrator.getState()), 0.8 - 0.7 * std::exp(-0.02 / 0.01), 1e-9);
     scene.muscle.setExcitation(state, 0);
     stepper.initialize(state);
     stepper.stepTo(0.06);
-    EXPECT_NEAR(scene.muscle.getActivation(integrator.getState()), 0.1 * std::exp(-0.06 / 0.04),
-                1e-9);
+    EXPECT_NEAR(scene.muscle.getActivation(integrator.getState()), 0.1 * std::exp(-0.06 / 0.04), 1e-9);
 }
 
 TEST(HillMuscleTest, ExcitationFromAFunctionIsClipped) {
@@ -106,10 +103,8 @@ TEST(HillMuscleTest, ExcitationFromAFunctionIsClipped) {
 
 TEST(HillMuscleTest, RefusesBadParametersByNameAndValue) {
     BareScene scene;
-    Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(0), scene.matter.Ground(),
-                SimTK::Vec3(1));
-    const auto expectRefused = [&](Real HillMuscleParameters::*member, Real value,
-                                   const std::string& message) {
+    Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(0), scene.matter.Ground(), SimTK::Vec3(1));
+    const auto expectRefused = [&](Real HillMuscleParameters::*member, Real value, const std::string& message) {
         HillMuscleParameters parameters;
         parameters.*member = value;
         EXPECT_MESSAGE(HillMuscle(scene.forces, cable, parameters), message);

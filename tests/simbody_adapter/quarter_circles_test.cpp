@@ -14,19 +14,16 @@ struct QuarterCircles : BareScene {
         MobilizedBody::Weld end(ground, Transform(SimTK::Vec3(-4, 0, 0)), makeBody(), Transform());
         cable = Cable(cables, start, SimTK::Vec3(0), end, SimTK::Vec3(0), "quarters");
         add(turned, {1, 11, 0}, std::make_shared<Torus>(10, 1), {1 - c, 1 + c, 0});
-        add(0, {4.5, 1, 0}, std::make_shared<Ellipsoid>(Vec3(1, 1, 6)),
-            {4.5 + c, 1 + c, 0});
-        add(turned, {4, -12, 0}, std::make_shared<Torus>(10, 1.5),
-            {4 + 1.5 * c, -2 - 1.5 * c, 0});
-        add(0, {-2, -1.5, 0}, std::make_shared<Cylinder>(2),
-            {-2 - 2 * c, -1.5 - 2 * c, 0});
+        add(0, {4.5, 1, 0}, std::make_shared<Ellipsoid>(Vec3(1, 1, 6)), {4.5 + c, 1 + c, 0});
+        add(turned, {4, -12, 0}, std::make_shared<Torus>(10, 1.5), {4 + 1.5 * c, -2 - 1.5 * c, 0});
+        add(0, {-2, -1.5, 0}, std::make_shared<Cylinder>(2), {-2 - 2 * c, -1.5 - 2 * c, 0});
         state = system.realizeTopology();
         system.realize(state, Stage::Velocity);
     }
 
     /** Each obstacle stands on a body of its own, whose origin is the obstacle's centre. */
-    void add(Real angleAboutY, const SimTK::Vec3& centre_G,
-             std::shared_ptr<const Surface> surface, const SimTK::Vec3& hint_G) {
+    void add(Real angleAboutY, const SimTK::Vec3& centre_G, std::shared_ptr<const Surface> surface,
+             const SimTK::Vec3& hint_G) {
         const SimTK::Rotation R_GS(angleAboutY, SimTK::YAxis);
         MobilizedBody::Weld body(matter.Ground(), Transform(centre_G), makeBody(), Transform());
         cable.addObstacle(body, Transform(R_GS), surface, ~R_GS * (hint_G - centre_G));
@@ -42,27 +39,23 @@ TEST(QuarterCirclesTest, LengthArcsAndStatus) {
     EXPECT_NEAR(scene.cable.getLength(scene.state), 15 + SimTK::Pi / 2 * 5.5, 1e-10);
     const Real radii[] = {1, 1, 1.5, 2};
     for (int i = 0; i < 4; ++i)
-        EXPECT_NEAR(scene.cable.getArcLength(scene.state, CableElementIndex(i + 1)),
-                    SimTK::Pi / 2 * radii[i], 1e-9);
+        EXPECT_NEAR(scene.cable.getArcLength(scene.state, CableElementIndex(i + 1)), SimTK::Pi / 2 * radii[i], 1e-9);
     EXPECT_NEAR(scene.cable.getLengthRate(scene.state), 0, 1e-15);
 }
 
 TEST(QuarterCirclesTest, WrenchesAboutBodyOrigins) {
     QuarterCircles scene;
     // In the order of the bodies: ground, start, end, and the obstacles along the path.
-    const SimTK::Vec3 forces[] = {{0, 0, 0},   {0, 1, 0},  {0, -1, 0}, {1, -1, 0},
-                                  {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}};
+    const SimTK::Vec3 forces[] = {{0, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}};
     const Real momentsAboutGround[] = {0, 0, 4, -2, -3.5, 2, -0.5};
     SimTK::Vector_<SimTK::SpatialVec> F_G;
     scene.cable.calcUnitBodyForces(scene.state, F_G);
     ASSERT_EQ(F_G.size(), 7);
     for (SimTK::MobilizedBodyIndex b(0); b < 7; ++b) {
-        const SimTK::Vec3 p_GB =
-            scene.matter.getMobilizedBody(b).getBodyOriginLocation(scene.state);
+        const SimTK::Vec3 p_GB = scene.matter.getMobilizedBody(b).getBodyOriginLocation(scene.state);
         const SimTK::Vec3 moment = F_G[b][0] + p_GB % F_G[b][1];
         EXPECT_LT((F_G[b][1] - forces[b]).norm(), 1e-9) << b << ": " << F_G[b];
-        EXPECT_LT((moment - SimTK::Vec3(0, 0, momentsAboutGround[b])).norm(), 1e-8)
-            << b << ": " << moment;
+        EXPECT_LT((moment - SimTK::Vec3(0, 0, momentsAboutGround[b])).norm(), 1e-8) << b << ": " << moment;
     }
 }
 

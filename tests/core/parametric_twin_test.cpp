@@ -1,0 +1,207 @@
+/** Implicit and parametric forms of the same shape give the same answers, and geodesics through the poles of
+a chart are exact. */
+#include <gtest/gtest.h>
+
+#include "support/surface_cases.h"
+#include "tautline/error.h"
+
+namespace tautline {
+namespace {
+
+constexpr unsigned kSeed = 77;
+constexpr double kAgreement = 1e-10;  // both integrate to 1e-12 per step
+
+double calcDifference(const DarbouxFrame& a, const DarbouxFrame& b, double size) {
+    const double places =
+        std::max({(a.x - b.x).norm() / size, (a.t - b.t).norm(), (a.N - b.N).norm(), (a.B - b.B).norm()});
+    const double curvature =
+        std::max({std::abs(a.kappaN - b.kappaN), std::abs(a.tauG - b.tauG), std::abs(a.kappaB - b.kappaB)});
+    const double scale = std::max({1 / size, std::abs(a.kappaN), std::abs(a.kappaB), std::abs(a.tauG)});
+    return std::max(places, curvature / scale);
+}
+
+class ParametricTwins : public ::testing::TestWithParam<testing::TwinCase> {};
+
+TEST_P(ParametricTwins, AgreeInFramesAndGeodesics) {
+    const testing::TwinCase& c = GetParam();
+    const Surface &f = *c.implicitForm, &x = *c.parametricForm;
+    const double size = f.getSize();
+    EXPECT_DOUBLE_EQ(size, x.getSize());
+    double frames = 0, ends = 0, fields = 0;
+    int stepsImplicit = 0, stepsParametric = 0;
+    for (const SurfaceLawSample& sample :
+         testing::makeSamples(f, c.extent, Vec3::Zero(), c.length, c.specialPoints, 100, kSeed)) {
+        const SurfacePoint p = f.findSurfacePoint(sample.p_S), uv = x.findSurfacePoint(p.p);
+        ASSERT_LT((p.p - uv.p).norm(), 1e-12 * size);
+        frames = std::max(
+            frames, calcDifference(f.calcFrame(p, sample.direction_S), x.calcFrame(uv, sample.direction_S), size));
+        Geodesic g, h;
+        f.shootGeodesic({p, sample.direction_S, sample.length}, {}, g);
+        x.shootGeodesic({uv, sample.direction_S, sample.length}, {}, h);
+        stepsImplicit += g.steps, stepsParametric += h.steps;
+        const double growth = std::max({1.0, std::abs(g.a * g.rDot), std::abs(g.r) / size, std::abs(g.aDot) * size});
+        ends = std::max(ends, calcDifference(g.Q, h.Q, size) / growth);
+        fields = std::max({fields, std::abs(g.a - h.a) / growth, std::abs(g.r - h.r) / (size * growth),
+                           std::abs(g.aDot - h.aDot) * size / growth, std::abs(g.rDot - h.rDot) / growth});
+        EXPECT_EQ(g.hasConjugatePoint, h.hasConjugatePoint);
+    }
+    std::printf("%-18s frames %.1e, ends %.1e, Jacobi fields %.1e; steps %d implicit, %d parametric\n", c.name.c_str(),
+                frames, ends, fields, stepsImplicit, stepsParametric);
+    EXPECT_LT(frames, kAgreement);
+    EXPECT_LT(ends, kAgreement);
+    EXPECT_LT(fields, kAgreement);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ParametricTwins, ::testing::ValuesIn(testing::makeTwinCases()),
+                         [](const auto& instance) { return instance.param.name; });
+
+/** Meridians through both poles of every chart end where the circle does. */
+TEST(ParametricSphere, IntegratesThroughThePolesOfItsCharts) {
+    const ParametricSphere sphere(0.4);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double aside : {0.0, 1e-15, 1e-9, 1e-3}) {
+            const Vec3 start = 0.4 * Vec3::Unit((axis + 1) % 3);
+            const Vec3 towards = (Vec3::Unit(axis) + aside * Vec3::Unit((axis + 2) % 3)).normalized();
+            Geodesic g;
+            const double angle = 2.9;  // past the pole at pi/2
+            sphere.shootByIntegration({sphere.findSurfacePoint(start), towards, 0.4 * angle}, {}, g);
+            EXPECT_TRUE(g.converged);
+            const Vec3 expected = std::cos(angle) * start + 0.4 * std::sin(angle) * towards;
+            EXPECT_LT((g.Q.x - expected).norm(), 1e-11) << "axis " << axis << ", aside " << aside;
+            EXPECT_NEAR(g.r, 0.4 * std::sin(angle), 1e-11);
+        }
+}
+
+/** Against the library's functions, over many turns and where the reduction hands over to them. */
+TEST(SineCosine, IsThatOfTheLibrary) {
+    double worst = 0;
+    for (double x = -60; x < 60; x += 0.00137)
+        for (const double scale : {1.0, 1e-3, 1000.0, 3000.0}) {
+            const Vec2 angles(x * scale, 0.7 * x * scale);
+            const SineCosine pair(angles);
+            for (int i = 0; i < 2; ++i)
+                worst = std::max({worst, std::abs(pair.sine[i] - std::sin(angles[i])),
+                                  std::abs(pair.cosine[i] - std::cos(angles[i]))});
+        }
+    EXPECT_LT(worst, 4.5e-16);
+    EXPECT_TRUE(std::isnan(SineCosine(Vec2(kNaN, 1)).sine[0]));
+}
+
+/** A point given by its position alone gets its coordinates. */
+TEST(ParametricEllipsoid, ResolvesPointsGivenByPosition) {
+    const ParametricEllipsoid surface(Vec3(0.05, 0.03, 0.08));
+    const Vec3 p = surface.findSurfacePoint(Vec3(0.04, 0.02, -0.05)).p;
+    const DarbouxFrame frame = surface.calcFrame({p}, Vec3(1, 2, 3));
+    EXPECT_LT((frame.x - p).norm(), 1e-16);
+    Geodesic g;
+    surface.shootGeodesic({{p}, Vec3(1, 2, 3), 0.05}, {}, g);
+    EXPECT_LT((g.P.x - p).norm(), 1e-16);
+}
+
+/** Several turns around a cylinder: u counts them. */
+TEST(ParametricCylinder, CountsTurns) {
+    const ParametricCylinder cylinder(0.5);
+    Geodesic closed, integrated;
+    const GeodesicStart start{cylinder.findSurfacePoint(Vec3(0.5, 0, 0)), Vec3(0, 1, 0.1), 10};
+    cylinder.shootGeodesic(start, {}, closed);
+    cylinder.shootByIntegration(start, {}, integrated);
+    EXPECT_NEAR(closed.endPoint.uv[0], 20 / std::sqrt(1.01), 1e-12);
+    EXPECT_LT((closed.endPoint.uv - integrated.endPoint.uv).norm(), 1e-10);
+    EXPECT_LT((closed.Q.x - integrated.Q.x).norm(), 1e-10);
+}
+
+/** Thesis Tab. 6.1 with the raised A and B of the errata; the value is the one recomputed there. */
+TEST(Paraboloid, HasTheClearanceOfTheThesis) {
+    const Vec3 A(-10, 10, -5), B(10, 5, -2);
+    const Vec3 e = (B - A).normalized();
+    const Paraboloid implicitForm(14, 6);
+    const ParametricParaboloid parametricForm(14, 6);
+    for (const Surface* surface :
+         {static_cast<const Surface*>(&implicitForm), static_cast<const Surface*>(&parametricForm)}) {
+        LineClearance clearance;
+        clearance.C = surface->findSurfacePoint(Vec3(1, 2, 1.0 / 14 + 4.0 / 6));
+        clearance.N = surface->calcFrame(clearance.C, e).N;
+        surface->findLineClearance(A, e, clearance);
+        ASSERT_TRUE(clearance.found) << surface->getDescription();
+        EXPECT_NEAR(clearance.distance, 6.119329965720299, 1e-12);
+        EXPECT_NEAR(clearance.lineCoordinate, 14.78753229, 1e-8);
+        EXPECT_NEAR(clearance.C.p.x(), 2.56305828, 1e-8);
+        EXPECT_NEAR(clearance.C.p.y(), 2.59381419, 1e-8);
+    }
+}
+
+/** The closed form of the unrolled cone against the integrator of implicit surfaces. */
+TEST(Cone, UnrolledGeodesicsAreThoseOfTheIntegrator) {
+    const Cone cone(0.4, 0.3);
+    for (const SurfaceLawSample& sample : testing::makeSamples(cone, 0.4, Vec3(0, 0, 1), 1, {}, 50, kSeed)) {
+        Geodesic closed, integrated;
+        const GeodesicStart start{cone.findSurfacePoint(sample.p_S), sample.direction_S, sample.length};
+        cone.shootGeodesic(start, {}, closed);
+        cone.shootByIntegration(start, {}, integrated);
+        EXPECT_LT(calcDifference(closed.Q, integrated.Q, 0.3), kAgreement);
+        EXPECT_NEAR(integrated.r, closed.r, 1e-10);
+    }
+}
+
+/** A layer over a sphere, an ellipsoid's parametric form or a torus is the surface known in closed form. */
+TEST(OffsetSurface, OfSphereAndTorusIsTheThickerOne) {
+    const std::vector<std::pair<std::shared_ptr<const Surface>, std::shared_ptr<const Surface>>> pairs = {
+        {std::make_shared<Sphere>(0.3), std::make_shared<Sphere>(0.35)},
+        {std::make_shared<ParametricSphere>(0.3), std::make_shared<Sphere>(0.35)},
+        {std::make_shared<ParametricCylinder>(0.3), std::make_shared<Cylinder>(0.35)},
+        {std::make_shared<Torus>(0.9, 0.3), std::make_shared<Torus>(0.9, 0.35)},
+    };
+    for (const auto& [base, expected] : pairs) {
+        const OffsetSurface offset(base, 0.05);
+        for (const SurfaceLawSample& sample : testing::makeSamples(*expected, 1, Vec3::Zero(), 0.8, {}, 20, kSeed)) {
+            Geodesic g, h;
+            Vec3 N;
+            const Vec3 p = expected->findSurfacePoint(sample.p_S).p;
+            expected->shootGeodesic({{p}, sample.direction_S, sample.length}, {}, g);
+            offset.shootGeodesic({{p}, sample.direction_S, sample.length}, {}, h);
+            EXPECT_LT(calcDifference(g.Q, h.Q, 0.35), kAgreement) << offset.getDescription();
+            EXPECT_NEAR(offset.calcHeight(p + 0.2 * g.P.N, N), 0.2, 1e-12) << offset.getDescription();
+        }
+    }
+}
+
+/** An ellipsoid is a sphere stretched, in both forms. */
+TEST(ScaledSurface, OfASphereIsTheEllipsoid) {
+    const Vec3 axes(0.05, 0.03, 0.08);
+    const Ellipsoid ellipsoid(axes);
+    const ScaledImplicitSurface<Sphere> implicitForm(Sphere(1), axes);
+    const ScaledParametricSurface<ParametricSphere> parametricForm(ParametricSphere(1), axes);
+    for (const SurfaceLawSample& sample : testing::makeSamples(ellipsoid, 0.1, Vec3::Zero(), 0.1, {}, 20, kSeed)) {
+        const SurfacePoint p = ellipsoid.findSurfacePoint(sample.p_S);
+        for (const Surface* scaled :
+             {static_cast<const Surface*>(&implicitForm), static_cast<const Surface*>(&parametricForm)}) {
+            Geodesic g, h;
+            ellipsoid.shootGeodesic({p, sample.direction_S, sample.length}, {}, g);
+            scaled->shootGeodesic({scaled->findSurfacePoint(p.p), sample.direction_S, sample.length}, {}, h);
+            EXPECT_LT(calcDifference(g.Q, h.Q, 0.03), kAgreement);
+        }
+    }
+}
+
+TEST(ShapeRefusals, NameTheValueAndTheLimit) {
+    const auto refuses = [](const auto& make, const std::string& word) {
+        try {
+            make();
+        } catch (const InvalidInput& error) {
+            EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+            return true;
+        }
+        return false;
+    };
+    EXPECT_TRUE(refuses([] { ParametricSphere(-0.1); }, "-0.1"));
+    EXPECT_TRUE(refuses([] { EllipticTorus(0.1, 0.2, 0.1); }, "radial semi-axis 0.2"));
+    EXPECT_TRUE(refuses([] { Cone(2, 1); }, "half angle"));
+    EXPECT_TRUE(refuses([] { Capsule(0.1, -1); }, "length"));
+    EXPECT_TRUE(refuses([] { Paraboloid(0, 1); }, "A must be positive"));
+    EXPECT_TRUE(refuses([] { OffsetSurface(nullptr, 1); }, "base"));
+    EXPECT_TRUE(refuses([] { OffsetSurface(std::make_shared<Sphere>(1), -1); }, "thickness"));
+    EXPECT_TRUE(refuses([] { ScaledImplicitSurface<Sphere>(Sphere(1), Vec3(1, 0, 1)); }, "factor y"));
+}
+
+}  // namespace
+}  // namespace tautline

@@ -1,0 +1,149 @@
+/** Patches: what they reproduce, how they fit, how they go on beyond their edges. */
+#include "tautline/patch_fit.h"
+
+#include <gtest/gtest.h>
+
+#include "support/surface_cases.h"
+#include "tautline/error.h"
+
+namespace tautline {
+namespace {
+
+/** The 121 points of thesis Fig. 3.9. */
+std::vector<Vec3> makeSineCloud() {
+    std::vector<Vec3> points;
+    for (int i = 0; i <= 10; ++i)
+        for (int j = 0; j <= 10; ++j) {
+            const double u = kPi * (0.1 + 0.08 * i), v = kPi * (0.1 + 0.08 * j);
+            points.push_back({u, v, std::sin(u) * std::sin(v)});
+        }
+    return points;
+}
+
+TEST(PatchFit, HasTheResidualsOfTheThesis) {
+    const auto points = makeSineCloud();
+    const FitReport two = fitPolynomialHeights(points, 2, 2, PolynomialTerms::TotalDegree).report;
+    const FitReport five = fitPolynomialHeights(points, 5, 5, PolynomialTerms::TotalDegree).report;
+    EXPECT_EQ(two.numUnknowns, 6);
+    EXPECT_EQ(five.numUnknowns, 21);
+    EXPECT_NEAR(two.sumOfSquares, 0.44123, 5e-6);
+    EXPECT_NEAR(five.sumOfSquares, 0.001274, 5e-7);
+    EXPECT_EQ(five.residuals.size(), 121u);
+    EXPECT_NEAR(five.rms, std::sqrt(five.sumOfSquares / 121), 1e-15);
+    // More terms fit better.
+    EXPECT_LT(fitPolynomialHeights(points, 5, 5, PolynomialTerms::Tensor).report.sumOfSquares, five.sumOfSquares);
+}
+
+TEST(PatchFit, RecoversAPolynomial) {
+    Eigen::MatrixXd p(3, 4);
+    p << 0.1, -0.2, 0.3, 0.05, 0.4, 0.1, -0.1, 0.02, 0.3, -0.3, 0.2, 0.01;
+    const ParameterDomain domain{Vec2(1, -2), Vec2(3, 1)};
+    const PolynomialPatch patch = PolynomialPatch::makeHeightPatch(domain, p);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 7; ++i)
+        for (int j = 0; j < 7; ++j) {
+            const double u = 1 + 2 * i / 6.0, v = -2 + 3 * j / 6.0;
+            double z = 0;
+            for (int k = 0; k < 3; ++k)
+                for (int l = 0; l < 4; ++l) z += p(k, l) * std::pow(u, k) * std::pow(v, l);
+            points.push_back({u, v, z});
+            EXPECT_LT((patch.calcParametric(Vec2(u, v), 0).x - points.back()).norm(), 1e-13);
+        }
+    const PolynomialFit fit = fitPolynomialHeights(points, 2, 3, PolynomialTerms::Tensor);
+    EXPECT_LT(fit.report.largest, 1e-13);
+    EXPECT_LT((fit.patch.getCoefficients() - patch.getCoefficients()).norm(), 1e-12);
+}
+
+TEST(PatchFit, BSplineFitsBetterWithMoreCells) {
+    const auto points = makeSineCloud();
+    const double few = fitBSplineHeights(points, 4, 4).report.rms, more = fitBSplineHeights(points, 7, 7).report.rms;
+    EXPECT_LT(more, 0.1 * few);
+    const BSplineFit gaps = fitBSplineHeights(points, 20, 20);  // more unknowns than points
+    EXPECT_LT(gaps.report.largest, 1e-10);
+    EXPECT_LT((gaps.patch.calcParametric(Vec2(1.2345, 0.7), 0).x.head<2>() - Vec2(1.2345, 0.7)).norm(), 1e-13);
+}
+
+TEST(PatchFit, RefusesWhatItCannotFit) {
+    std::vector<Vec3> points = makeSineCloud();
+    EXPECT_THROW(fitPolynomialHeights({points.begin(), points.begin() + 5}, 2, 2, PolynomialTerms::TotalDegree),
+                 InvalidInput);
+    std::vector<Vec3> line;
+    for (int i = 0; i < 30; ++i) line.push_back({0.1 * i, 0.2 * i, 1});
+    EXPECT_THROW(fitPolynomialHeights(line, 2, 2, PolynomialTerms::TotalDegree), InvalidInput);
+    points[3].z() = kNaN;
+    EXPECT_THROW(fitPolynomialHeights(points, 2, 2, PolynomialTerms::TotalDegree), InvalidInput);
+    EXPECT_THROW(fitPolynomialHeights({}, 2, 2, PolynomialTerms::TotalDegree), InvalidInput);
+}
+
+/** Bicubic data are reproduced everywhere, and grid points of others are met. */
+TEST(BSplinePatch, InterpolatesItsGridAndReproducesCubics) {
+    const auto cubic = [](double x, double y) { return 0.2 * x * x * x - 0.4 * x * y * y + y * y * y * x * x + x - 1; };
+    const int n = 6, m = 5;
+    Eigen::MatrixXd heights(n, m);
+    const ParameterDomain domain{Vec2(-1, 0), Vec2(1, 2)};
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < m; ++j) heights(i, j) = cubic(-1 + 2.0 * i / (n - 1), 2.0 * j / (m - 1));
+    const BSplinePatch patch = BSplinePatch::interpolateHeights(domain, heights);
+    for (double x = -1; x <= 1; x += 0.13)
+        for (double y = 0; y <= 2; y += 0.17)
+            EXPECT_LT((patch.calcParametric(Vec2(x, y), 0).x - Vec3(x, y, cubic(x, y))).norm(), 1e-13);
+    const BSplinePatch bumps = testing::makeBumpPatch(7);
+    for (int i = 0; i < 7; ++i) {
+        const double x = -1 + i / 3.0, y = -1 + 2 / 3.0;
+        EXPECT_NEAR(bumps.calcParametric(Vec2(x, y), 0).x.z(), testing::calcBumps(x, y), 1e-14);
+    }
+}
+
+/** Value and both derivatives are continuous across knots and across the edge of the domain. */
+TEST(BSplinePatch, IsTwiceContinuouslyDifferentiable) {
+    const BSplinePatch patch = testing::makeBumpPatch(9);
+    const double h = 1e-9;
+    for (const Vec2& uv : {Vec2(1, 0.3), Vec2(-1, 0.3), Vec2(0.3, 1), Vec2(1, 1), Vec2(0.25, 0.1), Vec2(0.25, 0.5)})
+        for (const Vec2& d : {Vec2(h, 0), Vec2(0, h), Vec2(h, h)}) {
+            const ParametricValue a = patch.calcParametric(uv - d, 0), b = patch.calcParametric(uv + d, 0);
+            EXPECT_LT((a.x - b.x).norm() + (a.xu - b.xu).norm() + (a.xv - b.xv).norm(), 1e-7);
+            EXPECT_LT((a.xuu - b.xuu).norm() + (a.xuv - b.xuv).norm() + (a.xvv - b.xvv).norm(), 1e-7);
+        }
+}
+
+/** Derivatives are those of the position, inside and beyond the edges. */
+TEST(PatchShape, DerivativesAreDifferencesEverywhere) {
+    const PolynomialPatch polynomial = testing::makePolynomialPatch(6);
+    const BSplinePatch spline = testing::makeShellPatch();
+    const double h = 1e-4;
+    const auto check = [&](const auto& patch, const Vec2& uv) {
+        const auto at = [&](double du, double dv) { return patch.calcParametric(uv + Vec2(du, dv), 0); };
+        const ParametricValue s = at(0, 0);
+        EXPECT_LT(((at(h, 0).x - at(-h, 0).x) / (2 * h) - s.xu).norm(), 1e-6);
+        EXPECT_LT(((at(0, h).x - at(0, -h).x) / (2 * h) - s.xv).norm(), 1e-6);
+        EXPECT_LT(((at(h, 0).xu - at(-h, 0).xu) / (2 * h) - s.xuu).norm(), 1e-4);
+        EXPECT_LT(((at(0, h).xu - at(0, -h).xu) / (2 * h) - s.xuv).norm(), 1e-4);
+        EXPECT_LT(((at(0, h).xv - at(0, -h).xv) / (2 * h) - s.xvv).norm(), 1e-4);
+    };
+    for (const Vec2& uv :
+         {Vec2(0.3, 0.4), Vec2(-0.91, 0.2), Vec2(1.2, 0.3), Vec2(0.21, -1.7), Vec2(1.4, 1.9), Vec2(-3, 2)}) {
+        check(polynomial, uv);
+        check(spline, uv);
+    }
+}
+
+TEST(PatchShape, KnowsItsDomain) {
+    const BSplinePatch height = testing::makeBumpPatch(8), shell = testing::makeShellPatch();
+    EXPECT_TRUE(height.isInDomain(height.findSurfacePoint(Vec3(0.9, -0.9, 3))));
+    EXPECT_FALSE(height.isInDomain(height.findSurfacePoint(Vec3(1.5, 0, 0))));
+    EXPECT_TRUE(shell.isInDomain(shell.findSurfacePoint(Vec3(0.4, 0.1, 0.3))));
+    EXPECT_FALSE(shell.isInDomain(shell.findSurfacePoint(Vec3(0.4, 0.1, 0.9))));
+}
+
+TEST(PatchShape, RefusalsNameTheValue) {
+    const ParameterDomain empty{Vec2(1, 0), Vec2(1, 1)}, unit{Vec2(0, 0), Vec2(1, 1)};
+    EXPECT_THROW(PolynomialPatch(empty, 1, 1, Eigen::Matrix3Xd::Zero(3, 4)), InvalidInput);
+    EXPECT_THROW(PolynomialPatch(unit, 1, 1, Eigen::Matrix3Xd::Zero(3, 3)), InvalidInput);
+    EXPECT_THROW(PolynomialPatch(unit, 0, 1, Eigen::Matrix3Xd::Zero(3, 2)), InvalidInput);
+    EXPECT_THROW(BSplinePatch(unit, 3, 4, Eigen::Matrix3Xd::Zero(3, 12)), InvalidInput);
+    EXPECT_THROW(BSplinePatch(unit, 4, 4, Eigen::Matrix3Xd::Constant(3, 16, kNaN)), InvalidInput);
+    EXPECT_THROW(BSplinePatch::interpolateHeights(unit, Eigen::MatrixXd::Zero(3, 3)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace tautline

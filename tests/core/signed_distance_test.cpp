@@ -1,0 +1,203 @@
+/** Clearance of a straight line over a surface: the thesis's examples and the side that is kept. */
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "support/random.h"
+#include "support/shapes.h"
+#include "tautline/path_verification.h"
+
+namespace tautline::testing {
+namespace {
+
+/** Newton's method of thesis Sec. 6.1 on x(u, v) = (u, v, u^2/14 + v^2/6), Eqn. 6.3 to 6.5 with the unknowns in the
+order (s_0, u, v). Ends of the line and expected numbers: errata of Sec. 6.1.1 and Tab. 6.1. */
+TEST(SignedDistance, ParaboloidOfThesisTab6_1) {
+    const Vec3 A(-10, 10, -5), B(10, 5, -2), e = (B - A).normalized();
+    const double norms[] = {11.347973868163587, 0.08996027934027645, 0.0020755024625711, 1.7055e-7, 1.3e-15};
+    const double tolerances[] = {1e-13, 1e-14, 1e-14, 1e-11, 1e-14};  // digits printed
+    Vec3 w(5, 1, 2);
+    double d = kNaN;
+    for (int k = 0; k < 5; ++k) {
+        const double u = w[1], v = w[2];
+        const Vec3 xu(1, 0, u / 7), xv(0, 1, v / 3), xuu(0, 0, 1 / 7.0), xvv(0, 0, 1 / 3.0);
+        const Vec3 r = A + w[0] * e - Vec3(u, v, u * u / 14 + v * v / 6);
+        const Vec3 g(e.dot(r), xu.dot(r), xv.dot(r));
+        EXPECT_NEAR(g.norm(), norms[k], tolerances[k]) << "row " << k + 1;
+        d = r.dot(xv.cross(xu).normalized());  // outward on the convex side, below
+        Mat3 J;
+        J << 1, -e.dot(xu), -e.dot(xv), e.dot(xu), -xu.dot(xu) + r.dot(xuu), -xu.dot(xv), e.dot(xv), -xu.dot(xv),
+            -xv.dot(xv) + r.dot(xvv);
+        w -= J.inverse() * g;
+    }
+    EXPECT_NEAR(w[0], 14.78753229, 5e-9);
+    EXPECT_NEAR(w[1], 2.56305828, 5e-9);
+    EXPECT_NEAR(w[2], 2.59381419, 5e-9);
+    EXPECT_NEAR(d, 6.119329965720299, 1e-14);
+
+    /** The paraboloid as f = u^2/14 + v^2/6 - z: outside below. */
+    class Paraboloid final : public ImplicitSurface {
+    public:
+        ImplicitValue calcImplicit(const Vec3& p) const override {
+            return {p.x() * p.x() / 14 + p.y() * p.y() / 6 - p.z(), Vec3(p.x() / 7, p.y() / 3, -1),
+                    Vec3(1 / 7.0, 1 / 3.0, 0).asDiagonal()};
+        }
+        double getSize() const override { return 3; }
+        std::string getDescription() const override { return "paraboloid"; }
+    };
+    LineClearance clearance;
+    findSegmentClearance(Paraboloid(), Pose(), A, B, clearance);
+    EXPECT_TRUE(clearance.found);
+    EXPECT_NEAR(clearance.distance, d, 1e-12);
+    EXPECT_NEAR(clearance.lineCoordinate, w[0], 1e-9);
+    EXPECT_LT((clearance.C.p.head<2>() - w.tail<2>()).norm(), 1e-9);
+}
+
+/** Newton's method of thesis Sec. 7.6, Eqn. 7.28 to 7.34 with dw = -J^-1 g (errata), from the rounded starting
+points of Tab. 7.1; expected numbers: errata. Curvatures and steps on the surface are the core's. */
+TEST(SignedDistance, EllipsoidOfThesisTab7_1) {
+    const Ellipsoid ellipsoid(Vec3(5, 3, 4));
+    const Vec3 A(-10, 10, 0), B(10, 5, 3), e = (B - A).normalized();
+    const double norms[] = {13.97, 0.3653, 0.009780, 1.118e-5, 1.5e-11, 3e-16};
+    const double tolerances[] = {5e-3, 5e-5, 5e-7, 5e-9, 5e-13, 1e-14};  // digits printed; rounding in the last
+    SurfacePoint C = ellipsoid.findSurfacePoint(Vec3(2.95, 2.22, 1.28));
+    double s0 = (Vec3(-5.20, 8.80, 0.72) - A).dot(e), d = kNaN;
+    for (int k = 0; k < 6; ++k) {
+        const DarbouxFrame frame = ellipsoid.calcFrame(C, e);
+        const Vec3 e1 = frame.t, e2 = -frame.B, r = A + s0 * e - C.p;  // e1 x e2 = N
+        const Vec3 g(e.dot(r), e1.dot(r), e2.dot(r));
+        EXPECT_NEAR(g.norm(), norms[k], tolerances[k]) << "row " << k + 1;
+        d = frame.N.dot(r);
+        Mat3 J;
+        J << 1, -e.dot(e1), -e.dot(e2), e.dot(e1), frame.kappaN * d - 1, frame.tauG * d, e.dot(e2), frame.tauG * d,
+            frame.kappaB * d - 1;
+        const Vec3 step = -J.inverse() * g;
+        s0 += step[0];
+        C = ellipsoid.calcDisplacedPoint(C, step[1] * e1 + step[2] * e2);
+    }
+    EXPECT_NEAR(d, 4.31960858834678, 5e-14);
+    LineClearance clearance;
+    findSegmentClearance(ellipsoid, Pose(), A, B, clearance);
+    EXPECT_NEAR(clearance.distance, d, 1e-12);
+    EXPECT_NEAR(clearance.lineCoordinate, s0, 1e-9);
+}
+
+TEST(SignedDistance, ClosedForms) {
+    Random random(81);
+    for (int i = 0; i < 50; ++i) {
+        const Pose X = random.pose(5);
+        const double phi = random.uniform(-kPi, kPi);
+        const Vec3 A(3 * std::cos(phi), 3 * std::sin(phi), random.uniform(-1, 1));
+        const Vec3 e = (random.vector(0.8) - A).normalized();  // towards the middle
+        const Vec3 B = A + 6 * e;
+        LineClearance sphere, cylinder;
+        findSegmentClearance(Sphere(0.5), X, X * A, X * B, sphere);
+        EXPECT_NEAR(sphere.distance, (A - A.dot(e) * e).norm() - 0.5, 1e-13);
+        EXPECT_NEAR(sphere.lineCoordinate, -A.dot(e), 1e-13);  // 0.5 from the centre at most
+        findSegmentClearance(Cylinder(0.5), X, X * A, X * B, cylinder);
+        const Vec3 common = e.cross(Vec3::UnitZ());
+        const double s = -A.head<2>().dot(e.head<2>()) / e.head<2>().squaredNorm();
+        ASSERT_TRUE(s > 0 && s < 6);
+        EXPECT_NEAR(cylinder.distance, std::abs(A.dot(common.normalized())) - 0.5, 1e-12);
+    }
+}
+
+TEST(SignedDistance, TorusSeenAlongItsTube) {
+    // Lines parallel to the axis, beside and through the tube whose centre is at (2, 0, 0).
+    for (double x : {2.5, 2.301, 2.3, 2.299, 2.1, 1.6}) {
+        LineClearance clearance;
+        findSegmentClearance(Torus(2, 0.3), Pose(), Vec3(x, 0, -3), Vec3(x, 0, 3), clearance);
+        EXPECT_NEAR(clearance.distance, std::abs(x - 2) - 0.3, 1e-12) << x;
+        EXPECT_NEAR(clearance.lineCoordinate, 3, 1e-6) << x;
+    }
+}
+
+TEST(SignedDistance, CriticalPointBeyondAnEndLeavesTheHeightOfThatEnd) {
+    LineClearance clearance;
+    findSegmentClearance(Sphere(1), Pose(), Vec3(2, 0.5, 0), Vec3(5, 0.5, 0), clearance);
+    EXPECT_NEAR(clearance.distance, std::hypot(2, 0.5) - 1, 1e-14);
+    EXPECT_EQ(clearance.lineCoordinate, 0);
+}
+
+constexpr double kTop = 0.5;  // of each shape below, in y
+
+struct Sunk {
+    const char* name;
+    std::shared_ptr<const Surface> surface;
+    Pose X;
+};
+std::vector<Sunk> makeSunk() {
+    return {{"sphere", std::make_shared<Sphere>(kTop), Pose()},
+            {"cylinder", std::make_shared<Cylinder>(kTop), Pose()},
+            {"ellipsoid", std::make_shared<Ellipsoid>(Vec3(0.6, kTop, 0.9)), Pose()},
+            {"torus", std::make_shared<Torus>(2, kTop), Pose(Vec3(0, -2, 0))}};
+}
+
+/** Clearance of a line along x at height y, a little beside the middle. */
+void calcClearanceAt(const Sunk& sunk, double y, LineClearance& clearance) {
+    findSegmentClearance(*sunk.surface, sunk.X, Vec3(-3, y, 0.1), Vec3(3, y, 0.1), clearance);
+}
+
+TEST(SignedDistance, LinePassingCleanThroughInOneStepReadsNegativeOnTheKeptSide) {
+    for (const Sunk& sunk : makeSunk()) {
+        LineClearance accepted;
+        calcClearanceAt(sunk, kTop + 0.1, accepted);
+        EXPECT_GT(accepted.distance, 0) << sunk.name;
+        for (int k = 1; k <= 1000; ++k) {  // to anywhere down to just below the bottom
+            LineClearance trial = accepted;
+            const double y = kTop + 0.1 - 1.2 * k / 1000;
+            calcClearanceAt(sunk, y, trial);
+            if (y < kTop - 0.02) {  // 0.1 beside the middle the top is 0.01 lower
+                EXPECT_LT(trial.distance, 0) << sunk.name << " at y = " << y;
+            }
+        }
+    }
+}
+
+/** Clearance after sinking to just below the bottom in `steps`, each continued from the one before. */
+double sinkThrough(const Sunk& sunk, int steps) {
+    LineClearance clearance;
+    for (int k = 0; k <= steps; ++k) calcClearanceAt(sunk, kTop + 0.1 - 1.2 * k / steps, clearance);
+    return clearance.distance;
+}
+
+TEST(SignedDistance, LinePassingCleanThroughInManyStepsReadsNegativeOnTheKeptSide) {
+    for (const Sunk& sunk : makeSunk())
+        for (int steps : {1, 2, 10, 1000}) {
+            if (sunk.name == std::string("sphere") && steps > 1) continue;  // see the next case
+            EXPECT_LT(sinkThrough(sunk, steps), 0) << sunk.name << " in " << steps << " steps";
+        }
+}
+
+// Symptom (2026-11-22): the normal that is kept turns with the line about the centre, step by step, and reads
+// +0.108 once the line is through. Enable when Sphere::findLineClearance keeps its side.
+TEST(SignedDistance, DISABLED_LinePassingThroughASphereInManyStepsReadsNegative) {
+    for (int steps : {2, 10, 1000}) EXPECT_LT(sinkThrough(makeSunk().front(), steps), 0) << steps;
+}
+
+TEST(SignedDistance, TouchingLinesReadZero) {
+    LineClearance clearance;
+    findSegmentClearance(Sphere(0.5), Pose(), Vec3(-1, 0.5, 0), Vec3(1, 0.5, 0), clearance);
+    EXPECT_NEAR(clearance.distance, 0, 1e-16);
+    clearance = LineClearance();
+    findSegmentClearance(Ellipsoid(Vec3(1, 0.5, 2)), Pose(), Vec3(-1, 0.5, 0), Vec3(1, 0.5, 0), clearance);
+    EXPECT_NEAR(clearance.distance, 0, 1e-15);
+    clearance = LineClearance();
+    findSegmentClearance(Cylinder(0.5), Pose(), Vec3(0.5, 0, -1), Vec3(0.5, 0, 1), clearance);  // along the axis
+    EXPECT_NEAR(clearance.distance, 0, 1e-16);
+}
+
+TEST(SignedDistance, DegenerateLinesStayFinite) {
+    for (const Shape& shape : makeShapes())
+        for (const Vec3& B : {Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(3, 0, 0)})
+            for (const Vec3& A : {Vec3(0, 0, 0), Vec3(0, 0, -1), Vec3(-1, 0, 0), Vec3(0, 5, 0)}) {
+                LineClearance clearance;
+                findSegmentClearance(*shape.surface, Pose(), A, B, clearance);
+                EXPECT_TRUE(std::isfinite(clearance.distance))
+                    << shape.name << " " << A.transpose() << " to " << B.transpose();
+                EXPECT_TRUE(clearance.C.p.allFinite() && clearance.N.allFinite()) << shape.name;
+            }
+}
+
+}  // namespace
+}  // namespace tautline::testing

@@ -1,0 +1,25 @@
+#pragma once
+#include "tautline/ellipsoid.h"
+#include "tautline/ellipsoid_charts.h"
+#include "tautline/parametric_twin.h"
+
+namespace tautline {
+
+/** Ellipsoid in longitude and latitude, three charts; see EllipsoidCharts. */
+class ParametricEllipsoid final : public ParametricTwin<ParametricEllipsoid, Ellipsoid> {
+public:
+    /** @param semiAxes   [m], each positive; InvalidInput otherwise */
+    explicit ParametricEllipsoid(const Vec3& semiAxes) : ParametricTwin(Ellipsoid(semiAxes)), m_charts(semiAxes) {}
+
+    ParametricValue calcParametric(const Vec2& uv, int chart) const { return m_charts.calcParametric(uv, chart); }
+    ParametricValue calcTurned(const Vec2& uv, int chart) const { return m_charts.calcTurned(uv, chart); }
+    Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const { return m_charts.calcNearbyParameters(p_S, chart); }
+    int chooseChart(const Vec3& p_S, const Vec3& t_S, int current) const {
+        return m_charts.chooseChart(p_S, t_S, current);
+    }
+
+private:
+    EllipsoidCharts m_charts;
+};
+
+}  // namespace tautline
