@@ -15,33 +15,28 @@ using SimTK::State;
 
 namespace {
 
-CableElement makePoint(const CableImpl& cable, const MobilizedBody& body,
-                       const SimTK::Vec3& station_B, std::string name) {
+CableElement makePoint(const CableImpl& cable, const MobilizedBody& body, const SimTK::Vec3& station_B,
+                       std::string name) {
     require(station_B.isFinite(), "cable '", cable.getName(), "': the station of ",
             name.empty() ? "a point" : "'" + name + "'", " is not finite: ", station_B);
-    return {std::move(name), body.getMobilizedBodyIndex(), SimTK::Transform(station_B), nullptr,
-            std::nullopt};
+    return {std::move(name), body.getMobilizedBodyIndex(), SimTK::Transform(station_B), nullptr, std::nullopt};
 }
 
 /** A body of another system would be taken for one of ours with the same index. */
-void requireOwnBody(const CableSubsystemImpl& cables, const std::string& cable,
-                    const MobilizedBody& body) {
-    require(body.isInSubsystem() &&
-                body.getMatterSubsystem().isSameSubsystem(cables.getMatter()),
-            "cable '", cable, "': a body does not belong to the cable's system");
+void requireOwnBody(const CableSubsystemImpl& cables, const std::string& cable, const MobilizedBody& body) {
+    require(body.isInSubsystem() && body.getMatterSubsystem().isSameSubsystem(cables.getMatter()), "cable '", cable,
+            "': a body does not belong to the cable's system");
 }
 
 }  // namespace
 
-Cable::Cable(CableSubsystem& cables, const MobilizedBody& originBody,
-             const SimTK::Vec3& originStation_B, const MobilizedBody& insertionBody,
-             const SimTK::Vec3& insertionStation_B, std::string name) {
+Cable::Cable(CableSubsystem& cables, const MobilizedBody& originBody, const SimTK::Vec3& originStation_B,
+             const MobilizedBody& insertionBody, const SimTK::Vec3& insertionStation_B, std::string name) {
     CableSubsystemImpl& owner = cables.updImpl();
     requireOwnBody(owner, name, originBody);
     requireOwnBody(owner, name, insertionBody);
     require(originStation_B.isFinite() && insertionStation_B.isFinite(), "cable '", name,
-            "': an end is not finite: origin ", originStation_B, ", insertion ",
-            insertionStation_B);
+            "': an end is not finite: origin ", originStation_B, ", insertion ", insertionStation_B);
     m_impl = &owner.addCable(std::move(name));
     m_impl->setEnds(makePoint(get(), originBody, originStation_B, "origin"),
                     makePoint(get(), insertionBody, insertionStation_B, "insertion"));
@@ -52,42 +47,53 @@ CableImpl& Cable::upd() const {
     return *m_impl;
 }
 
-const CableImpl& Cable::get() const { return upd(); }
+const CableImpl& Cable::get() const {
+    return upd();
+}
 
-CableElementIndex Cable::addViaPoint(const MobilizedBody& body, const SimTK::Vec3& station_B,
-                                     std::string name) {
+CableElementIndex Cable::addViaPoint(const MobilizedBody& body, const SimTK::Vec3& station_B, std::string name) {
     requireOwnBody(get().getSubsystemImpl(), getName(), body);
     return upd().insertElement(makePoint(get(), body, station_B, std::move(name)));
 }
 
 CableElementIndex Cable::addObstacle(const MobilizedBody& body, const SimTK::Transform& X_BS,
-                                     std::shared_ptr<const Surface> surface,
-                                     std::optional<SimTK::Vec3> hint_S, std::string name) {
+                                     std::shared_ptr<const Surface> surface, std::optional<SimTK::Vec3> hint_S,
+                                     std::string name) {
     requireOwnBody(get().getSubsystemImpl(), getName(), body);
     require(surface != nullptr, "cable '", getName(), "': obstacle '", name, "' has no surface");
-    require(X_BS.p().isFinite() && X_BS.R().isFinite(), "cable '", getName(),
-            "': the pose of obstacle '", name, "' is not finite");
-    require(!hint_S || hint_S->isFinite(), "cable '", getName(), "': the hint of obstacle '", name,
+    require(X_BS.p().isFinite() && X_BS.R().isFinite(), "cable '", getName(), "': the pose of obstacle '", name,
             "' is not finite");
-    return upd().insertElement(
-        {std::move(name), body.getMobilizedBodyIndex(), X_BS, std::move(surface), hint_S});
+    require(!hint_S || hint_S->isFinite(), "cable '", getName(), "': the hint of obstacle '", name, "' is not finite");
+    return upd().insertElement({std::move(name), body.getMobilizedBodyIndex(), X_BS, std::move(surface), hint_S});
 }
 
 void Cable::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
     upd().setHint(obstacle, hint_S);
 }
 
-void Cable::setOptions(const PathSolverOptions& options) { upd().setOptions(options); }
-const PathSolverOptions& Cable::getOptions() const { return get().getOptions(); }
-void Cable::setDisabledByDefault(bool isDisabled) { upd().setDisabledByDefault(isDisabled); }
-bool Cable::isDisabledByDefault() const { return get().isDisabledByDefault(); }
+void Cable::setOptions(const PathSolverOptions& options) {
+    upd().setOptions(options);
+}
+const PathSolverOptions& Cable::getOptions() const {
+    return get().getOptions();
+}
+void Cable::setDisabledByDefault(bool isDisabled) {
+    upd().setDisabledByDefault(isDisabled);
+}
+bool Cable::isDisabledByDefault() const {
+    return get().isDisabledByDefault();
+}
 
 void Cable::setContactListener(std::function<void(const ContactEvent&)> listener) {
     upd().setListener(std::move(listener));
 }
 
-const std::string& Cable::getName() const { return get().getName(); }
-CableIndex Cable::getCableIndex() const { return get().getIndex(); }
+const std::string& Cable::getName() const {
+    return get().getName();
+}
+CableIndex Cable::getCableIndex() const {
+    return get().getIndex();
+}
 
 const CableSubsystem& Cable::getSubsystem() const {
     // The System's own handle is a plain Subsystem; ours adds no data to it.
@@ -98,7 +104,9 @@ const SimTK::SimbodyMatterSubsystem& Cable::getMatterSubsystem() const {
     return get().getSubsystemImpl().getMatter();
 }
 
-int Cable::getNumElements() const { return get().getNumElements(); }
+int Cable::getNumElements() const {
+    return get().getNumElements();
+}
 
 bool Cable::isObstacle(CableElementIndex element) const {
     return get().getElement(element).surface != nullptr;
@@ -126,15 +134,23 @@ std::shared_ptr<const Surface> Cable::getSurface(CableElementIndex element) cons
     return get().getElement(element).surface;
 }
 
-void Cable::disable(State& state) const { get().setDisabled(state, true); }
-void Cable::enable(State& state) const { get().setDisabled(state, false); }
-bool Cable::isDisabled(const State& state) const { return get().isDisabled(state); }
+void Cable::disable(State& state) const {
+    get().setDisabled(state, true);
+}
+void Cable::enable(State& state) const {
+    get().setDisabled(state, false);
+}
+bool Cable::isDisabled(const State& state) const {
+    return get().isDisabled(state);
+}
 
 void Cable::fixContacts(State& state) const {
     get().keepContacts(state, get().calcSettledPath(state));
 }
 
-void Cable::releaseContacts(State& state) const { get().releaseContacts(state); }
+void Cable::releaseContacts(State& state) const {
+    get().releaseContacts(state);
+}
 
 bool Cable::areContactsFixed(const State& state) const {
     return get().getPathState().getMode(state).keepsContacts;
@@ -168,13 +184,11 @@ bool Cable::isTouched(const State& state, CableElementIndex obstacle) const {
 
 Real Cable::getArcLength(const State& state, CableElementIndex obstacle) const {
     get().getObstacle(obstacle);
-    const ObstacleContact& contact =
-        get().getPath(state, "Cable::getArcLength()").contacts[obstacle];
+    const ObstacleContact& contact = get().getPath(state, "Cable::getArcLength()").contacts[obstacle];
     return contact.isTouched ? contact.geodesic.length : 0;
 }
 
-bool Cable::getContactPoints(const State& state, CableElementIndex obstacle, SimTK::Vec3& P_G,
-                             SimTK::Vec3& Q_G) const {
+bool Cable::getContactPoints(const State& state, CableElementIndex obstacle, SimTK::Vec3& P_G, SimTK::Vec3& Q_G) const {
     get().getObstacle(obstacle);
     const PathSolution& path = get().getPath(state, "Cable::getContactPoints()");
     const ObstacleContact& contact = path.contacts[obstacle];
@@ -187,8 +201,7 @@ bool Cable::getContactPoints(const State& state, CableElementIndex obstacle, Sim
 
 Real Cable::getClearance(const State& state, CableElementIndex obstacle) const {
     get().getObstacle(obstacle);
-    const ObstacleContact& contact =
-        get().getPath(state, "Cable::getClearance()").contacts[obstacle];
+    const ObstacleContact& contact = get().getPath(state, "Cable::getClearance()").contacts[obstacle];
     return contact.isTouched ? SimTK::NaN : contact.clearance.distance;
 }
 
@@ -206,8 +219,7 @@ std::vector<SimTK::Vec3> Cable::calcDrawingPoints(const State& state, Real maxAn
     return result;
 }
 
-void Cable::applyBodyForces(const State& state, Real tension,
-                            SimTK::Vector_<SpatialVec>& bodyForces) const {
+void Cable::applyBodyForces(const State& state, Real tension, SimTK::Vector_<SpatialVec>& bodyForces) const {
     get().addBodyForces(state, tension, bodyForces, "Cable::applyBodyForces()");
 }
 
@@ -228,17 +240,18 @@ void Cable::calcUnitMobilityForces(const State& state, SimTK::Vector& unitForces
     getMatterSubsystem().multiplyBySystemJacobianTranspose(state, F_G, unitForces);
 }
 
-Real Cable::calcMomentArm(const State& state, SimTK::MobilizedBodyIndex body,
-                          SimTK::MobilizerUIndex u) const {
+Real Cable::calcMomentArm(const State& state, SimTK::MobilizedBodyIndex body, SimTK::MobilizerUIndex u) const {
     SimTK::Vector unitForces;
     calcUnitMobilityForces(state, unitForces);
     const MobilizedBody& mobilizedBody = getMatterSubsystem().getMobilizedBody(body);
-    require(u.isValid() && u < mobilizedBody.getNumU(state), "cable '", getName(), "': body ",
-            static_cast<int>(body), " has no mobility ", static_cast<int>(u));
+    require(u.isValid() && u < mobilizedBody.getNumU(state), "cable '", getName(), "': body ", static_cast<int>(body),
+            " has no mobility ", static_cast<int>(u));
     return unitForces[mobilizedBody.getFirstUIndex(state) + u];
 }
 
-Real Cable::getLengthRate(const State& state) const { return get().getLengthRate(state); }
+Real Cable::getLengthRate(const State& state) const {
+    return get().getLengthRate(state);
+}
 
 Real Cable::calcPower(const State& state, Real tension) const {
     get().getSubsystemImpl().ensureStage(state, SimTK::Stage::Velocity, "Cable::calcPower()");
@@ -250,7 +263,11 @@ Real Cable::calcPower(const State& state, Real tension) const {
     return tension * power;
 }
 
-CableStatistics Cable::getStatistics() const { return get().getStatistics(); }
-void Cable::resetStatistics() const { get().resetStatistics(); }
+CableStatistics Cable::getStatistics() const {
+    return get().getStatistics();
+}
+void Cable::resetStatistics() const {
+    get().resetStatistics();
+}
 
 }  // namespace tautline

@@ -31,17 +31,13 @@ void addSurface(const Surface& surface, const Transform& X_BS, SimTK::Real halfL
     else if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(&surface))
         add(SimTK::DecorativeEllipsoid(toSimTK(ellipsoid->getSemiAxes())).setTransform(X_BS));
     else if (const auto* torus = dynamic_cast<const Torus*>(&surface))
-        add(SimTK::DecorativeTorus(torus->getRingRadius(), torus->getTubeRadius())
-                .setTransform(X_BS));
+        add(SimTK::DecorativeTorus(torus->getRingRadius(), torus->getTubeRadius()).setTransform(X_BS));
 }
 
-void addPath(const Cable& cable, const State& state, const SimTK::Vec3& color,
-             Array_<DecorativeGeometry>& geometry) {
+void addPath(const Cable& cable, const State& state, const SimTK::Vec3& color, Array_<DecorativeGeometry>& geometry) {
     const std::vector<SimTK::Vec3> points_G = cable.calcDrawingPoints(state);
     for (std::size_t i = 1; i < points_G.size(); ++i)
-        geometry.push_back(SimTK::DecorativeLine(points_G[i - 1], points_G[i])
-                               .setColor(color)
-                               .setLineThickness(3));
+        geometry.push_back(SimTK::DecorativeLine(points_G[i - 1], points_G[i]).setColor(color).setLineThickness(3));
 }
 
 }  // namespace
@@ -61,8 +57,7 @@ CableDecorations& CableDecorations::setCylinderHalfLength(SimTK::Real radii) {
     return *this;
 }
 
-void CableDecorations::generateDecorations(const State& state,
-                                           Array_<DecorativeGeometry>& geometry) {
+void CableDecorations::generateDecorations(const State& state, Array_<DecorativeGeometry>& geometry) {
     m_cables.getMultibodySystem().realize(state, SimTK::Stage::Position);
     for (CableIndex c(0); c < m_cables.getNumCables(); ++c) {
         const Cable& cable = m_cables.getCable(c);

@@ -13,16 +13,11 @@ public:
     SimTK::Real calcTension(const SimTK::State& state) const;
 
     void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,
-                   SimTK::Vector_<SimTK::Vec3>& particleForces,
-                   SimTK::Vector& mobilityForces) const override;
+                   SimTK::Vector_<SimTK::Vec3>& particleForces, SimTK::Vector& mobilityForces) const override;
     SimTK::Real calcPotentialEnergy(const SimTK::State& state) const override;
     bool dependsOnlyOnPositions() const override { return false; }
-    void realizeTopology(SimTK::State& state) const override {
-        m_law->realizeTopology(state, m_forces);
-    }
-    void realizeAcceleration(const SimTK::State& state) const override {
-        m_law->realizeDerivatives(state, m_forces);
-    }
+    void realizeTopology(SimTK::State& state) const override { m_law->realizeTopology(state, m_forces); }
+    void realizeAcceleration(const SimTK::State& state) const override { m_law->realizeDerivatives(state, m_forces); }
 
 private:
     const SimTK::GeneralForceSubsystem& m_forces;

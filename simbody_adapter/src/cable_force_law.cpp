@@ -33,8 +33,7 @@ Real CableForce::calcPower(const State& state) const {
     return tension == 0 ? 0 : -tension * getCable().getLengthRate(state);
 }
 
-CableForceImpl::CableForceImpl(const SimTK::GeneralForceSubsystem& forces,
-                               std::unique_ptr<CableForceLaw> law)
+CableForceImpl::CableForceImpl(const SimTK::GeneralForceSubsystem& forces, std::unique_ptr<CableForceLaw> law)
     : m_forces(forces), m_law(std::move(law)) {
     require(m_law != nullptr, "cable force: the law is null");
 }

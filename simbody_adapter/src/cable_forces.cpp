@@ -40,9 +40,8 @@ public:
 
 private:
     Real checked(Real value, const char* what) const {
-        require(std::isfinite(value) && value >= 0, "elastic string force on cable '",
-                getCable().getName(), "': ", what, " must be finite and not negative, but is ",
-                value);
+        require(std::isfinite(value) && value >= 0, "elastic string force on cable '", getCable().getName(),
+                "': ", what, " must be finite and not negative, but is ", value);
         return value;
     }
 
@@ -52,14 +51,12 @@ private:
 /** A tension from a discrete variable (no function) or from a function. */
 class PrescribedTensionLaw : public CableForceLaw {
 public:
-    PrescribedTensionLaw(const Cable& cable, Real tension)
-        : CableForceLaw(cable), m_defaultTension(tension) {
+    PrescribedTensionLaw(const Cable& cable, Real tension) : CableForceLaw(cable), m_defaultTension(tension) {
         check(tension);
     }
     PrescribedTensionLaw(const Cable& cable, std::function<Real(const State&)> calcTension)
         : CableForceLaw(cable), m_calcTension(std::move(calcTension)) {
-        require(m_calcTension != nullptr, "prescribed tension on cable '", cable.getName(),
-                "': the function is null");
+        require(m_calcTension != nullptr, "prescribed tension on cable '", cable.getName(), "': the function is null");
     }
 
     Real calcTension(const State& state) const override {
@@ -76,14 +73,14 @@ public:
 
     void realizeTopology(State& state, const SimTK::Subsystem& forces) override {
         m_forces = &forces;
-        m_tension = forces.allocateDiscreteVariable(state, SimTK::Stage::Dynamics,
-                                                    new SimTK::Value<Real>(m_defaultTension));
+        m_tension =
+            forces.allocateDiscreteVariable(state, SimTK::Stage::Dynamics, new SimTK::Value<Real>(m_defaultTension));
     }
 
 private:
     void check(Real tension) const {
-        require(std::isfinite(tension) && tension >= 0, "prescribed tension on cable '",
-                getCable().getName(), "': must be finite and not negative, but is ", tension);
+        require(std::isfinite(tension) && tension >= 0, "prescribed tension on cable '", getCable().getName(),
+                "': must be finite and not negative, but is ", tension);
     }
 
     Real m_defaultTension = 0;
@@ -101,21 +98,24 @@ std::function<Real(const State&)> makeTimeFunction(SimTK::Function* tensionOfTim
     const std::shared_ptr<const SimTK::Function> owned(tensionOfTime);
     require(owned->getArgumentSize() == 1, "prescribed tension: the function must have one ",
             "argument, the time, but has ", owned->getArgumentSize());
-    return [owned](const State& state) {
-        return owned->calcValue(SimTK::Vector(1, state.getTime()));
-    };
+    return [owned](const State& state) { return owned->calcValue(SimTK::Vector(1, state.getTime())); };
 }
 
 }  // namespace
 
-ElasticStringForce::ElasticStringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
-                                       Real slackLength, Real stiffness, Real damping)
-    : CableForce(forces, std::make_unique<ElasticStringLaw>(cable, slackLength, stiffness,
-                                                            damping)) {}
+ElasticStringForce::ElasticStringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, Real slackLength,
+                                       Real stiffness, Real damping)
+    : CableForce(forces, std::make_unique<ElasticStringLaw>(cable, slackLength, stiffness, damping)) {}
 
-Real ElasticStringForce::getSlackLength() const { return getElasticLaw(*this).getSlackLength(); }
-Real ElasticStringForce::getStiffness() const { return getElasticLaw(*this).getStiffness(); }
-Real ElasticStringForce::getDamping() const { return getElasticLaw(*this).getDamping(); }
+Real ElasticStringForce::getSlackLength() const {
+    return getElasticLaw(*this).getSlackLength();
+}
+Real ElasticStringForce::getStiffness() const {
+    return getElasticLaw(*this).getStiffness();
+}
+Real ElasticStringForce::getDamping() const {
+    return getElasticLaw(*this).getDamping();
+}
 
 Real ElasticStringForce::getStretch(const State& state) const {
     return getElasticLaw(*this).calcStretch(state);
@@ -127,17 +127,14 @@ Real ElasticStringForce::getPowerDissipation(const State& state) const {
     return (getTension(state) - getStiffness() * getStretch(state)) * rate;
 }
 
-PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces,
-                                               const Cable& cable, Real tension)
+PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, Real tension)
     : CableForce(forces, std::make_unique<PrescribedTensionLaw>(cable, tension)) {}
 
-PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces,
-                                               const Cable& cable,
+PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
                                                std::function<Real(const State&)> calcTension)
     : CableForce(forces, std::make_unique<PrescribedTensionLaw>(cable, std::move(calcTension))) {}
 
-PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces,
-                                               const Cable& cable,
+PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
                                                SimTK::Function* tensionOfTime)
     : PrescribedTensionForce(forces, cable, makeTimeFunction(tensionOfTime)) {}
 

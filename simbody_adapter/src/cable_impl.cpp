@@ -43,11 +43,9 @@ void CableImpl::setEnds(CableElement origin, CableElement insertion) {
 
 CableElementIndex CableImpl::insertElement(CableElement element) {
     const CableElementIndex index(getNumElements() - 1);
-    if (element.name.empty())
-        element.name = (element.surface ? "obstacle" : "point") + std::to_string(index);
+    if (element.name.empty()) element.name = (element.surface ? "obstacle" : "point") + std::to_string(index);
     for (const CableElement& other : m_elements)
-        require(other.name != element.name, "cable '", m_name, "': there is an element '",
-                element.name, "' already");
+        require(other.name != element.name, "cable '", m_name, "': there is an element '", element.name, "' already");
     const bool isObstacle = element.surface != nullptr;
     m_elements.insert(m_elements.end() - 1, std::move(element));
     m_cables.invalidateSubsystemTopologyCache();
@@ -57,8 +55,8 @@ CableElementIndex CableImpl::insertElement(CableElement element) {
 
 void CableImpl::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
     getObstacle(obstacle);
-    require(!hint_S || hint_S->isFinite(), "cable '", m_name, "': the hint of obstacle '",
-            m_elements[obstacle].name, "' is not finite");
+    require(!hint_S || hint_S->isFinite(), "cable '", m_name, "': the hint of obstacle '", m_elements[obstacle].name,
+            "' is not finite");
     m_elements[obstacle].hint_S = hint_S;
     m_cables.invalidateSubsystemTopologyCache();
 }
@@ -82,8 +80,7 @@ const CableElement& CableImpl::getElement(CableElementIndex element) const {
 
 const CableElement& CableImpl::getObstacle(CableElementIndex element) const {
     const CableElement& found = getElement(element);
-    require(found.surface != nullptr, "cable '", m_name, "': element '", found.name,
-            "' is a point, not an obstacle");
+    require(found.surface != nullptr, "cable '", m_name, "': element '", found.name, "' is a point, not an obstacle");
     return found;
 }
 
@@ -122,8 +119,7 @@ void CableImpl::setDisabled(State& state, bool isDisabled) const {
 
 const PathSolution& CableImpl::getPath(const State& state, const char* method) const {
     m_cables.ensureStage(state, Stage::Position, method);
-    SimTK_ERRCHK1_ALWAYS(!isDisabled(state), method, "cable '%s' is disabled in this State",
-                         m_name.c_str());
+    SimTK_ERRCHK1_ALWAYS(!isDisabled(state), method, "cable '%s' is disabled in this State", m_name.c_str());
     // A study's swap leaves the path unrealized at a stage beyond Position.
     if (!m_state.isPathRealized(state)) realizePosition(state);
     return m_state.getPath(state);
@@ -146,16 +142,15 @@ Real CableImpl::calcWitness(const State& state, CableElementIndex obstacle) cons
     return calcContactWitness(m_problem, path, obstacle);
 }
 
-const std::vector<SpatialForce>& CableImpl::calcElementForces(const State& state,
-                                                              const char* method) const {
+const std::vector<SpatialForce>& CableImpl::calcElementForces(const State& state, const char* method) const {
     const PathSolution& path = getPath(state, method);
     CableWorkspace& workspace = m_state.updWorkspace(state);
     calcUnitForces(path, workspace.pose, workspace.forces);
     return workspace.forces;
 }
 
-void CableImpl::addBodyForces(const State& state, Real tension,
-                              SimTK::Vector_<SpatialVec>& bodyForces, const char* method) const {
+void CableImpl::addBodyForces(const State& state, Real tension, SimTK::Vector_<SpatialVec>& bodyForces,
+                              const char* method) const {
     const std::vector<SpatialForce>& F_GE = calcElementForces(state, method);
     for (int e = 0; e < getNumElements(); ++e) {
         const CableElement& element = m_elements[e];
@@ -175,9 +170,8 @@ void CableImpl::calcVelocities(const State& state, std::vector<SpatialVelocity>&
     V_GE.resize(m_elements.size());
     for (std::size_t e = 0; e < m_elements.size(); ++e) {
         const SimTK::MobilizedBody& body = getBody(m_elements[e]);
-        V_GE[e] = {
-            toEigen(body.getBodyAngularVelocity(state)),
-            toEigen(body.findStationVelocityInGround(state, m_elements[e].X_BE.p()))};
+        V_GE[e] = {toEigen(body.getBodyAngularVelocity(state)),
+                   toEigen(body.findStationVelocityInGround(state, m_elements[e].X_BE.p()))};
     }
 }
 
@@ -203,8 +197,7 @@ void CableImpl::solve(const PathSolution& start, bool keepsContacts, CableWorksp
 
 /** Where the start does not lead on, a start anew may, but it counts only if it comes to the same
 contacts. */
-void CableImpl::solveKept(const PathSolution& start, CableWorkspace& workspace,
-                          PathSolution& path) const {
+void CableImpl::solveKept(const PathSolution& start, CableWorkspace& workspace, PathSolution& path) const {
     path = start;
     workspace.solver.solveKeepingContacts(m_problem, workspace.pose, path);
     if (path.status != PathStatus::NotConverged || !m_options.allowsColdStart) return;
@@ -216,8 +209,7 @@ void CableImpl::solveKept(const PathSolution& start, CableWorkspace& workspace,
 PathSolution CableImpl::calcSettledPath(const State& state) const {
     PathSolution path = getPath(state, "Cable::fixContacts()");
     CableWorkspace& workspace = m_state.updWorkspace(state);
-    if (path.status != PathStatus::NotConverged)
-        settleContacts(workspace.solver, m_problem, workspace.pose, path);
+    if (path.status != PathStatus::NotConverged) settleContacts(workspace.solver, m_problem, workspace.pose, path);
     return path;
 }
 
@@ -247,15 +239,13 @@ void CableImpl::handleContactEvent(State& state) const {
     report(state, before, after);
 }
 
-void CableImpl::report(const State& state, const PathSolution& before,
-                       const PathSolution& after) const {
+void CableImpl::report(const State& state, const PathSolution& before, const PathSolution& after) const {
     for (CableElementIndex e(0); e < getNumElements(); ++e) {
         if (before.contacts[e].isTouched == after.contacts[e].isTouched) continue;
         ++m_counters.events;
         using Kind = ContactEvent::Kind;
         const Kind kind = after.contacts[e].isTouched ? Kind::Made : Kind::Lost;
-        if (m_listener)
-            m_listener({state.getTime(), m_index, e, kind, before.length, after.length});
+        if (m_listener) m_listener({state.getTime(), m_index, e, kind, before.length, after.length});
     }
 }
 
@@ -273,8 +263,8 @@ CableStatistics CableImpl::getStatistics() const {
 
 void CableImpl::resetStatistics() const {
     for (std::atomic<long>* counter :
-         {&m_counters.solves, &m_counters.coldSolves, &m_counters.failures, &m_counters.iterations,
-          &m_counters.shots, &m_counters.events, &m_counters.nanoseconds})
+         {&m_counters.solves, &m_counters.coldSolves, &m_counters.failures, &m_counters.iterations, &m_counters.shots,
+          &m_counters.events, &m_counters.nanoseconds})
         *counter = 0;
 }
 

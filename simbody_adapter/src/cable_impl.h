@@ -29,9 +29,7 @@ public:
     void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
     void setOptions(const PathSolverOptions& options);
     void setDisabledByDefault(bool isDisabled);
-    void setListener(std::function<void(const ContactEvent&)> listener) {
-        m_listener = std::move(listener);
-    }
+    void setListener(std::function<void(const ContactEvent&)> listener) { m_listener = std::move(listener); }
 
     const std::string& getName() const { return m_name; }
     CableIndex getIndex() const { return m_index; }
@@ -53,17 +51,14 @@ public:
 
     /** @param method   of the API, for the message if the state is not realized to Position */
     const PathSolution& getPath(const SimTK::State& state, const char* method) const;
-    const PathPose& getPose(const SimTK::State& state) const {
-        return m_state.updWorkspace(state).pose;
-    }
+    const PathPose& getPose(const SimTK::State& state) const { return m_state.updWorkspace(state).pose; }
     const PathProblem& getProblem() const { return m_problem; }
     SimTK::Real getLengthRate(const SimTK::State& state) const;
     SimTK::Real calcWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     /** About element origins, in ground; valid until the next call with this state. */
-    const std::vector<SpatialForce>& calcElementForces(const SimTK::State& state,
-                                                       const char* method) const;
-    void addBodyForces(const SimTK::State& state, SimTK::Real tension,
-                       SimTK::Vector_<SimTK::SpatialVec>& bodyForces, const char* method) const;
+    const std::vector<SpatialForce>& calcElementForces(const SimTK::State& state, const char* method) const;
+    void addBodyForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,
+                       const char* method) const;
 
     /** The path of this state with all contacts settled, as a study starts from it. */
     PathSolution calcSettledPath(const SimTK::State& state) const;
@@ -77,11 +72,9 @@ public:
 private:
     void calcPose(const SimTK::State& state, PathPose& pose) const;
     void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
-    void solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace,
-               PathSolution& path) const;
+    void solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace, PathSolution& path) const;
     void solveKept(const PathSolution& start, CableWorkspace& workspace, PathSolution& path) const;
-    void report(const SimTK::State& state, const PathSolution& before,
-                const PathSolution& after) const;
+    void report(const SimTK::State& state, const PathSolution& before, const PathSolution& after) const;
 
     CableSubsystemImpl& m_cables;
     CableIndex m_index;
@@ -96,8 +89,7 @@ private:
 
     /** Counted by all threads that realize States. */
     struct Counters {
-        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0},
-            nanoseconds{0};
+        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, nanoseconds{0};
     };
     mutable Counters m_counters;
 };

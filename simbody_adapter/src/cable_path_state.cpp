@@ -6,17 +6,15 @@ using SimTK::Stage;
 using SimTK::State;
 using SimTK::Value;
 
-void CablePathState::allocate(const SimTK::Subsystem::Guts& cables, State& state,
-                              const CableMode& defaultMode, const PathSolverOptions& options) {
+void CablePathState::allocate(const SimTK::Subsystem::Guts& cables, State& state, const CableMode& defaultMode,
+                              const PathSolverOptions& options) {
     m_cables = &cables;
-    m_mode = cables.allocateDiscreteVariable(state, Stage::Position,
-                                             new Value<CableMode>(defaultMode));
-    m_path = cables.allocateAutoUpdateDiscreteVariable(
-        state, Stage::Position, new Value<PathSolution>(PathSolution()), Stage::Position);
-    m_rate =
-        cables.allocateLazyCacheEntry(state, Stage::Velocity, new Value<SimTK::Real>(SimTK::NaN));
-    m_workspace = cables.allocateLazyCacheEntry(
-        state, Stage::Topology, new Value<CableWorkspace>(CableWorkspace(options)));
+    m_mode = cables.allocateDiscreteVariable(state, Stage::Position, new Value<CableMode>(defaultMode));
+    m_path = cables.allocateAutoUpdateDiscreteVariable(state, Stage::Position, new Value<PathSolution>(PathSolution()),
+                                                       Stage::Position);
+    m_rate = cables.allocateLazyCacheEntry(state, Stage::Velocity, new Value<SimTK::Real>(SimTK::NaN));
+    m_workspace =
+        cables.allocateLazyCacheEntry(state, Stage::Topology, new Value<CableWorkspace>(CableWorkspace(options)));
 }
 
 const CableMode& CablePathState::getMode(const State& state) const {

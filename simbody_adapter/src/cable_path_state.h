@@ -17,8 +17,7 @@ struct CableMode {
 side by side. Nothing in it changes an answer; the solver's scratch is not worth copying. */
 struct CableWorkspace {
     explicit CableWorkspace(const PathSolverOptions& options) : solver(options) {}
-    CableWorkspace(const CableWorkspace& source)
-        : solver(source.solver.getOptions()), pose(source.pose) {}
+    CableWorkspace(const CableWorkspace& source) : solver(source.solver.getOptions()), pose(source.pose) {}
     CableWorkspace& operator=(const CableWorkspace& source) {
         solver = PathSolver(source.solver.getOptions());
         pose = source.pose;
@@ -39,8 +38,8 @@ study swaps in when it accepts a step. Rate: cached at Velocity. */
 class CablePathState {
 public:
     /** To be called from realizeTopology(). */
-    void allocate(const SimTK::Subsystem::Guts& cables, SimTK::State& state,
-                  const CableMode& defaultMode, const PathSolverOptions& options);
+    void allocate(const SimTK::Subsystem::Guts& cables, SimTK::State& state, const CableMode& defaultMode,
+                  const PathSolverOptions& options);
 
     const CableMode& getMode(const SimTK::State& state) const;
     void setMode(SimTK::State& state, const CableMode& mode) const;

@@ -13,14 +13,18 @@ CableSubsystem::CableSubsystem(SimTK::MultibodySystem& system) {
     system.adoptSubsystem(*this);
 }
 
-int CableSubsystem::getNumCables() const { return getImpl().getNumCables(); }
+int CableSubsystem::getNumCables() const {
+    return getImpl().getNumCables();
+}
 
 const Cable& CableSubsystem::getCable(CableIndex cable) const {
     // Handles are the same for readers and writers.
     return const_cast<CableSubsystemImpl&>(getImpl()).updCable(cable);
 }
 
-Cable& CableSubsystem::updCable(CableIndex cable) { return updImpl().updCable(cable); }
+Cable& CableSubsystem::updCable(CableIndex cable) {
+    return updImpl().updCable(cable);
+}
 
 const SimTK::MultibodySystem& CableSubsystem::getMultibodySystem() const {
     return getImpl().getMultibodySystem();
@@ -51,8 +55,8 @@ CableImpl& CableSubsystemImpl::addCable(std::string name) {
 }
 
 Cable& CableSubsystemImpl::updCable(CableIndex cable) {
-    require(cable.isValid() && cable < getNumCables(), "cable subsystem: no cable ",
-            static_cast<int>(cable), " of ", getNumCables());
+    require(cable.isValid() && cable < getNumCables(), "cable subsystem: no cable ", static_cast<int>(cable), " of ",
+            getNumCables());
     return m_handles[cable];
 }
 
@@ -79,8 +83,7 @@ int CableSubsystemImpl::realizeSubsystemPositionImpl(const State& state) const {
     return 0;
 }
 
-void CableSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause cause,
-                                          const SimTK::Array_<SimTK::EventId>&,
+void CableSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause cause, const SimTK::Array_<SimTK::EventId>&,
                                           const SimTK::HandleEventsOptions&,
                                           SimTK::HandleEventsResults& results) const {
     if (cause != SimTK::Event::Cause::Initialization) return;

@@ -13,9 +13,7 @@ constexpr SimTK::Real kLocalizationWindow = 1e-6;
 
 ContactEventHandler::ContactEventHandler(const CableImpl& cable, CableElementIndex obstacle)
     : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_obstacle(obstacle) {
-    getTriggerInfo()
-        .setTriggerOnRisingSignTransition(false)
-        .setRequiredLocalizationTimeWindow(kLocalizationWindow);
+    getTriggerInfo().setTriggerOnRisingSignTransition(false).setRequiredLocalizationTimeWindow(kLocalizationWindow);
 }
 
 SimTK::Real ContactEventHandler::getValue(const SimTK::State& state) const {

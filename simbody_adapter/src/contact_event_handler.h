@@ -12,8 +12,7 @@ class ContactEventHandler : public SimTK::TriggeredEventHandler {
 public:
     ContactEventHandler(const CableImpl& cable, CableElementIndex obstacle);
     SimTK::Real getValue(const SimTK::State& state) const override;
-    void handleEvent(SimTK::State& state, SimTK::Real accuracy,
-                     bool& shouldTerminate) const override;
+    void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
 
 private:
     const CableImpl& m_cable;

@@ -24,8 +24,7 @@ void lift(ObstacleContact& contact) {
     contact.clearance.N = contact.geodesic.P.N;
 }
 
-void switchContact(const PathProblem& problem, const PathPose& pose, int element,
-                   PathSolution& path) {
+void switchContact(const PathProblem& problem, const PathPose& pose, int element, PathSolution& path) {
     ObstacleContact& contact = path.contacts[element];
     if (contact.isTouched) return lift(contact);
     const Vec3 e_S = pose.X_GE[element].R.transpose() * path.segments[contact.segment].e;
@@ -40,16 +39,13 @@ double calcContactWitness(const PathProblem& problem, const PathSolution& path, 
     const ObstacleContact& contact = path.contacts[element];
     // An end inside leaves no path over the obstacle: it must be off, and then nothing is watched.
     if (contact.isSwitchedOff) return contact.isTouched ? -1 : 1;
-    const double witness =
-        contact.isTouched
-            ? contact.start.length / problem.getElement(element).surface->getSize()
-            : contact.clearance.distance * contact.clearance.scale - kContactTolerance;
+    const double witness = contact.isTouched ? contact.start.length / problem.getElement(element).surface->getSize()
+                                             : contact.clearance.distance * contact.clearance.scale - kContactTolerance;
     if (!std::isfinite(witness)) return 1;
     return witness == 0 ? kTiny : witness;
 }
 
-bool settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose,
-                    PathSolution& path) {
+bool settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PathSolution before = path;
     const int maxSwitches = 2 * problem.getNumElements();
     for (int i = 0; i < maxSwitches; ++i) {

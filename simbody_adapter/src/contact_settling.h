@@ -11,8 +11,7 @@ double calcContactWitness(const PathProblem& problem, const PathSolution& path, 
 if that comes to no end, lets the solver find a contact set from here.
 @param path   in: solved with its contacts kept; out: as in, or solved with other contacts
 @return true if the contact set has changed */
-bool settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose,
-                    PathSolution& path);
+bool settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 bool haveSameContacts(const PathSolution& a, const PathSolution& b);
 

@@ -12,8 +12,7 @@ using SimTK::State;
 namespace {
 
 void requirePositive(Real value, const char* what) {
-    require(std::isfinite(value) && value > 0, "hill muscle: ", what,
-            " must be positive and finite, but is ", value);
+    require(std::isfinite(value) && value > 0, "hill muscle: ", what, " must be positive and finite, but is ", value);
 }
 
 void requireFraction(Real value, const char* what) {
@@ -46,9 +45,7 @@ public:
         return getCable().getLength(state) - m_parameters.tendonSlackLength;
     }
     /** Height of the fibre's parallelogram [m], constant. */
-    Real calcThickness() const {
-        return m_parameters.optimalFibreLength * std::sin(m_parameters.pennationAtOptimal);
-    }
+    Real calcThickness() const { return m_parameters.optimalFibreLength * std::sin(m_parameters.pennationAtOptimal); }
     Real calcFibreLength(const State& state) const {
         return std::hypot(std::max(Real(0), calcFibreProjection(state)), calcThickness());
     }
@@ -71,20 +68,16 @@ Real HillMuscleLaw::calcTension(const State& state) const {
     if (!(calcFibreProjection(state) > 0)) return 0;
     const HillMuscleParameters& p = m_parameters;
     const Real length = calcFibreLength(state) / p.optimalFibreLength;
-    const Real velocity =
-        calcFibreVelocity(state) / (p.maxContractionVelocity * p.optimalFibreLength);
-    const Real active =
-        getActivation(state) * calcActiveForceLength(p, length) * calcForceVelocity(p, velocity);
-    return p.maxIsometricForce * (active + calcPassiveForceLength(p, length)) *
-           std::cos(calcPennation(state));
+    const Real velocity = calcFibreVelocity(state) / (p.maxContractionVelocity * p.optimalFibreLength);
+    const Real active = getActivation(state) * calcActiveForceLength(p, length) * calcForceVelocity(p, velocity);
+    return p.maxIsometricForce * (active + calcPassiveForceLength(p, length)) * std::cos(calcPennation(state));
 }
 
 void HillMuscleLaw::realizeTopology(State& state, const SimTK::Subsystem& forces) {
     m_forces = &forces;
     m_activation = forces.allocateZ(state, SimTK::Vector(1, m_parameters.defaultActivation));
-    m_excitation =
-        forces.allocateDiscreteVariable(state, SimTK::Stage::Dynamics,
-                                        new SimTK::Value<Real>(m_parameters.defaultExcitation));
+    m_excitation = forces.allocateDiscreteVariable(state, SimTK::Stage::Dynamics,
+                                                   new SimTK::Value<Real>(m_parameters.defaultExcitation));
 }
 
 void HillMuscleLaw::realizeDerivatives(const State& state, const SimTK::Subsystem& forces) const {
@@ -102,8 +95,7 @@ void HillMuscleLaw::setExcitation(State& state, Real excitation) const {
     requireFraction(excitation, "excitation");
     require(!m_calcExcitation, "hill muscle on cable '", getCable().getName(),
             "': the excitation is given by a function and cannot be set");
-    SimTK::Value<Real>::updDowncast(m_forces->updDiscreteVariable(state, m_excitation)) =
-        excitation;
+    SimTK::Value<Real>::updDowncast(m_forces->updDiscreteVariable(state, m_excitation)) = excitation;
 }
 
 void HillMuscleLaw::setActivation(State& state, Real activation) const {
@@ -121,8 +113,7 @@ void HillMuscleParameters::validate() const {
     requirePositive(maxIsometricForce, "maxIsometricForce");
     requirePositive(optimalFibreLength, "optimalFibreLength");
     require(std::isfinite(tendonSlackLength) && tendonSlackLength >= 0,
-            "hill muscle: tendonSlackLength must be finite and not negative, but is ",
-            tendonSlackLength);
+            "hill muscle: tendonSlackLength must be finite and not negative, but is ", tendonSlackLength);
     require(pennationAtOptimal >= 0 && pennationAtOptimal < SimTK::Pi / 2,
             "hill muscle: pennationAtOptimal must be in [0, pi/2), but is ", pennationAtOptimal);
     requirePositive(maxContractionVelocity, "maxContractionVelocity");
@@ -157,8 +148,7 @@ Real calcForceVelocity(const HillMuscleParameters& parameters, Real velocity) {
     return 1 + gain * velocity / (velocity + c);
 }
 
-HillMuscle::HillMuscle(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
-                       const HillMuscleParameters& parameters)
+HillMuscle::HillMuscle(SimTK::GeneralForceSubsystem& forces, const Cable& cable, const HillMuscleParameters& parameters)
     : CableForce(forces, std::make_unique<HillMuscleLaw>(cable, parameters)) {}
 
 const HillMuscleParameters& HillMuscle::getParameters() const {

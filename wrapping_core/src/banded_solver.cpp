@@ -13,6 +13,7 @@ void BandedSolver::reset(int size) {
 }
 
 bool BandedSolver::solveInPlace(std::vector<double>& rightHandSide) {
+    if (m_size == 0) return true;  // LAPACK wants a leading dimension of at least one
     const int one = 1, ld = getLeadingDimension();
     int info = 0;
     dgbsv_(&m_size, &m_kl, &m_ku, &one, m_storage.data(), &ld, m_pivots.data(), rightHandSide.data(), &m_size, &info);

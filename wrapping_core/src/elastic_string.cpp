@@ -8,10 +8,11 @@ namespace {
 
 constexpr double kSpacingPerRoom = 0.3;  ///< node spacing over (obstacle size + distance): 20 nodes per turn
 constexpr double kMovePerRoom = 0.3;     ///< farthest move of a node in a sweep: cannot pass a thin obstacle
-constexpr int kMaxNodes = 4000;
-constexpr int kArcGuides = 6;                   ///< points taken from each arc of a previous path
+constexpr int kMaxNodes = 4000, kMaxNodesPerElement = 60;  ///< the larger of both is the limit
+constexpr int kArcGuides = 6;                              ///< points taken from each arc of a previous path
 constexpr int kLayingDepth = 6;                 ///< bisections of an edge that would cross a surface: 64 pieces
 constexpr double kLayingDepthTolerance = 0.02;  ///< crossings shallower than this (in sizes) are left to the sweeps
+constexpr std::size_t kNeighbours = 4;          ///< obstacles before and after a portion that its mesh allows for
 constexpr int kSweepsPerMesh = 20;
 constexpr double kMaxRelaxation = 1.9;
 
@@ -110,8 +111,11 @@ void ElasticString::relax(const PathProblem& problem, const PathPose&, double fi
     if (!(m_extent > 0)) return;
     double relaxation = 1;
     for (int i = 0; i < maxSweeps; ++i) {
-        if (i % kSweepsPerMesh == 0) remesh(problem, fineness);
         updatePortions(problem);
+        if (i % kSweepsPerMesh == 0) {
+            remesh(problem, fineness);
+            updatePortions(problem);
+        }
         const double move = sweep(problem, relaxation, i % 2 == 0);
         ++m_numSweeps;
         // Plain steps first, while the string falls into place; then over-relaxation for the long waves.
@@ -121,21 +125,35 @@ void ElasticString::relax(const PathProblem& problem, const PathPose&, double fi
     updatePortions(problem);
 }
 
-/** Room at a point: least of (size + distance) over the obstacles that may act there. */
+/** Portions begin and end in path order: the first hold whose portion goes beyond a node. */
+std::size_t ElasticString::findFirstHold(int node) const {
+    const auto first = std::partition_point(m_holds.begin(), m_holds.end(),
+                                            [node](const Hold& hold) { return hold.portionEnd <= node; });
+    return static_cast<std::size_t>(first - m_holds.begin());
+}
+
+/** Room at a point after a node: least of (size + distance) over the obstacles that act there or may soon, when
+a neighbour lifts and their portions grow. */
 double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int node) const {
     double room = m_extent;
     Vec3 N_S;
-    for (const Hold& hold : m_holds) {
+    const std::size_t first = findFirstHold(node);
+    int beyond = 0;
+    for (std::size_t i = first > kNeighbours ? first - kNeighbours : 0; i < m_holds.size(); ++i) {
+        const Hold& hold = m_holds[i];
+        if (hold.portionBegin > node && ++beyond > static_cast<int>(kNeighbours)) break;
         if (node < hold.from || node > hold.to) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
-        room = std::min(room, surface.getSize() + std::max(0.0, surface.calcHeight(hold.X_GS.shiftBack(x), N_S)));
+        const double height = surface.calcHeight(hold.X_GS.shiftBack(x), N_S);
+        room = std::min(room, surface.getSize() + std::max(0.0, height));
     }
     return room;
 }
 
 /** New nodes along the polygon, closer where room is small; contacts keep their place on the string. */
 void ElasticString::remesh(const PathProblem& problem, double fineness) {
-    const double least = m_extent / kMaxNodes;
+    const int maxNodes = std::max(kMaxNodes, kMaxNodesPerElement * problem.getNumElements());
+    const double least = m_extent / maxNodes;
     std::vector<Vec3> nodes;
     std::vector<char> isFixed;
     std::vector<int> newIndex(m_nodes.size());  // of the new node at or just after an old one
@@ -150,7 +168,7 @@ void ElasticString::remesh(const PathProblem& problem, double fineness) {
         // March along the edge; what is left of a step carries over to the next edge.
         const double length = edge.norm();
         double at = 0;
-        while (static_cast<int>(nodes.size()) < kMaxNodes) {
+        while (static_cast<int>(nodes.size()) < maxNodes) {
             const double spacing =
                 std::max(least, fineness * kSpacingPerRoom * calcRoom(problem, nodes.back(), static_cast<int>(k)));
             // Where the last node lies relative to this edge: step from it to the sphere of radius `spacing`.
@@ -222,7 +240,7 @@ double ElasticString::sweep(const PathProblem& problem, double relaxation, bool 
         if (length > limit) move *= limit / length;
         m_nodes[k] = old + move;
         double room = m_extent;
-        pushOut(problem, k, m_holds, room);
+        pushOut(problem, k, room);
         m_room[k] = room;
         largest = std::max(largest, (m_nodes[k] - old).norm() / room);
     }
@@ -230,9 +248,10 @@ double ElasticString::sweep(const PathProblem& problem, double relaxation, bool 
 }
 
 /** Moves a node out of the obstacles that act on it and notes the contacts. */
-void ElasticString::pushOut(const PathProblem& problem, int node, std::vector<Hold>& holds, double& room) {
-    for (Hold& hold : holds) {
-        if (hold.isSwitchedOff || node <= hold.portionBegin || node >= hold.portionEnd) continue;
+void ElasticString::pushOut(const PathProblem& problem, int node, double& room) {
+    for (std::size_t i = findFirstHold(node); i < m_holds.size() && m_holds[i].portionBegin < node; ++i) {
+        Hold& hold = m_holds[i];
+        if (hold.isSwitchedOff) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
         Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
         const double height = surface.calcHeight(p_S, N_S), size = surface.getSize();
@@ -243,6 +262,14 @@ void ElasticString::pushOut(const PathProblem& problem, int node, std::vector<Ho
         else
             m_nodes[node] = hold.X_GS * surface.findSurfacePoint(p_S).p;
         noteContact(hold, node);
+    }
+}
+
+void ElasticString::push(int element, const Vec3& by_G) {
+    for (const Hold& hold : m_holds) {
+        if (hold.element != element || !hold.touches()) continue;
+        for (int k = hold.first; k <= hold.last; ++k)
+            if (!m_isFixed[k]) m_nodes[k] += by_G;
     }
 }
 

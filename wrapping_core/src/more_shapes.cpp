@@ -68,7 +68,8 @@ void Plane::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& c
     clearance.found = false;
     constexpr double kParallel = 1e-15;  // rounding of a unit vector
     if (!(std::abs(e_S.z()) <= kParallel)) return;
-    clearance = {findSurfacePoint(A_S), Vec3::UnitZ(), 0, A_S.z(), 1 / m_size, true};
+    clearance.C = findSurfacePoint(A_S), clearance.N = Vec3::UnitZ(), clearance.lineCoordinate = 0;
+    clearance.distance = A_S.z(), clearance.scale = 1 / m_size, clearance.found = true;
 }
 
 double Plane::findLowestPoint(const Vec3&, const Vec3& e_S, double length) const {

@@ -13,6 +13,8 @@ constexpr double kMaxMove = 0.5;        ///< of P and of the length in one step,
 constexpr double kMaxTurn = 0.6;        ///< of the start direction in one step [rad]
 constexpr int kMaxHalvings = 6;         ///< of a Newton step that does not lower the error
 constexpr int kMaxDampings = 8;         ///< tenfold increases of the damping of a least-squares step
+constexpr double kEndHeight = 1e-7;     ///< of ends that lie on a surface, in its sizes
+constexpr double kSaddlePush = 0.1;     ///< sideways push of a string that rests on a saddle, in sizes
 constexpr double kLiftLength = -1e-12;  ///< arcs shorter than this (in sizes) are lifted
 
 double calcNorm(const std::vector<double>& v) {
@@ -42,10 +44,11 @@ PathSolver::PathSolver(const PathSolverOptions& options) : m_options(options) {
     options.validate();
 }
 
-void PathSolver::solve(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, PathSolution& path) {
     problem.validate();
-    require(static_cast<int>(pose.X_GE.size()) == problem.getNumElements(), "path solver: ", pose.X_GE.size(),
+    require(static_cast<int>(givenPose.X_GE.size()) == problem.getNumElements(), "path solver: ", givenPose.X_GE.size(),
             " poses for ", problem.getNumElements(), " elements");
+    const PathPose& pose = calcLiftedPose(problem, givenPose);
     path.iterations = path.shots = 0;
     path.wasCold = false;
     const bool isContinued = !path.isEmpty();
@@ -59,14 +62,43 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& pose, PathSol
     finish(problem, pose, path.pathError <= m_options.pathErrorTolerance, path);
 }
 
-void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose& givenPose, PathSolution& path) {
     require(static_cast<int>(path.contacts.size()) == problem.getNumElements(),
             "path solver: solveKeepingContacts needs a path that was solved before");
+    const PathPose& pose = calcLiftedPose(problem, givenPose);
     path.iterations = path.shots = 0;
     path.wasCold = false;
     const bool isConverged = iterateNewton(problem, pose, path) == Outcome::Converged;
     updateClearances(problem, pose, path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
+}
+
+/** The pose with every fixed point that lies on a surface of its strand lifted off by kEndHeight: the straight
+segment there would have no length, and no direction. The length changes by the power 3/2 of that height. */
+const PathPose& PathSolver::calcLiftedPose(const PathProblem& problem, const PathPose& pose) {
+    bool isLifted = false;
+    Vec3 N_S;
+    const auto lift = [&](int point, int e) {
+        const Surface& surface = *problem.getElement(e).surface;
+        const Pose& X_GS = pose.X_GE[e];
+        const double size = surface.getSize();
+        const double height = surface.calcHeight(X_GS.shiftBack(pose.X_GE[point].p), N_S);
+        if (!(std::abs(height) < kEndHeight * size)) return;
+        if (!isLifted) m_liftedPose = pose;
+        isLifted = true;
+        m_liftedPose.X_GE[point].p += (kEndHeight * size - height) * (X_GS.R * N_S);
+    };
+    int firstOfStrand = 0;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!problem.getElement(e).isPoint() || !pose.hasElement(e)) continue;
+        for (int obstacle = firstOfStrand + 1; obstacle < e; ++obstacle) {
+            if (problem.getElement(obstacle).isPoint() || !pose.hasElement(obstacle)) continue;
+            lift(firstOfStrand, obstacle);
+            lift(e, obstacle);
+        }
+        firstOfStrand = e;
+    }
+    return isLifted ? m_liftedPose : pose;
 }
 
 /** Continues from the contact set and starts in `path`. @return true if a verified minimum was found */
@@ -90,8 +122,21 @@ bool PathSolver::findColdPath(const PathProblem& problem, const PathPose& pose, 
         for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
         m_string.extractContacts(problem, pose, path.contacts);
         if (findPath(problem, pose, path)) return true;
+        leaveSaddle(problem, pose, path);
     }
     return false;
+}
+
+/** A string laid symmetrically stays on a saddle: where the path is one, it is pushed off sideways. */
+void PathSolver::leaveSaddle(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    if (!(path.pathError <= m_options.pathErrorTolerance)) return;
+    const PathVerification verification = verifyPath(problem, pose, path);
+    if (verification.condition != PathVerification::Condition::Unstable &&
+        verification.condition != PathVerification::Condition::ConjugatePoint)
+        return;
+    const int e = verification.element;
+    const double push = kSaddlePush * problem.getElement(e).surface->getSize();
+    m_string.push(e, push * (pose.X_GE[e].R * path.contacts[e].geodesic.P.B));
 }
 
 /** Newton on one contact set, then lift what has negative length and touch what is penetrated, one at a
@@ -310,8 +355,8 @@ void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& 
 void liftContact(ObstacleContact& contact) {
     contact.isTouched = false;
     contact.clearance = LineClearance();
-    contact.clearance.C = contact.start.point;
-    contact.clearance.N = contact.geodesic.P.N;
+    contact.clearance.keptC = contact.start.point;
+    contact.clearance.keptN = contact.geodesic.P.N;
 }
 
 PathSolution solvePath(const PathProblem& problem, const PathPose& pose, const PathSolverOptions& options) {

@@ -53,6 +53,37 @@ Condition verifyContact(const Surface& surface, const Pose& X_GS, const Obstacle
     return Condition::None;
 }
 
+/** Second variation of the length over sideways displacements b of the contact points along their binormals:
+
+    sum over lines of (b_Q^2 + b_P^2 - 2 b_Q b_P B_Q.B_P)/l  +  sum over arcs of the index form of the Jacobi fields,
+
+a symmetric tridiagonal form in (b_P, b_Q) of all contacts in order, positive definite at a strict minimum. Its
+pivots, in terms of the displacement y and slope y' of the sideways field that stays taut from the fixed point
+behind: on an arc y_Q = a y_P + r y_P', y_Q' = a' y_P + r' y_P'; on a line slopes sigma = y'/y obey
+sigma_P = 1/l - (B_Q.B_P/l)^2/(sigma_Q + 1/l). @return the first contact at which a pivot is not positive, or -1 */
+int findUnstableContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    double sigmaQ = 0;  // slope at the end of the last arc
+    Vec3 BQ = Vec3::Zero();
+    for (std::size_t j = 0; j + 1 < path.segments.size(); ++j) {
+        const StraightSegment &in = path.segments[j], &out = path.segments[j + 1];
+        const int e = in.toElement;
+        if (problem.getElement(e).isPoint()) continue;
+        const Geodesic& arc = path.contacts[e].geodesic;
+        const Mat3& R = pose.X_GE[e].R;
+        // From a fixed point y : y' = l : 1; from an arc, the pivot.
+        double y = in.length, slope = 1;
+        if (!problem.getElement(in.fromElement).isPoint()) {
+            const double twist = BQ.dot(R * arc.P.B);
+            y = 1, slope = 1 / in.length - twist * twist / (in.length * in.length * (sigmaQ + 1 / in.length));
+        }
+        const double yQ = arc.a * y + arc.r * slope, slopeQ = arc.aDot * y + arc.rDot * slope;
+        if (!(yQ > 0) || !(slopeQ * out.length + yQ > 0)) return e;
+        sigmaQ = slopeQ / yQ;
+        BQ = R * arc.Q.B;
+    }
+    return -1;
+}
+
 }  // namespace
 
 PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
@@ -71,6 +102,8 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
         }
         if (condition != Condition::None) return {condition, e};
     }
+    const int unstable = findUnstableContact(problem, pose, path);
+    if (unstable >= 0) return {Condition::Unstable, unstable};
     return {};
 }
 
@@ -90,6 +123,8 @@ std::string describe(const PathVerification& verification, const PathProblem& pr
             return "a straight segment passes below the surface of " + name;
         case Condition::OutsideDomain:
             return "the arc on " + name + " leaves the domain of its surface";
+        case Condition::Unstable:
+            return "the path can be shortened sideways at " + name;
         case Condition::None:
             break;
     }
@@ -103,6 +138,7 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
     const Vec3 e_S = length > 0 ? Vec3((B_S - A_S) / length) : Vec3(Vec3::UnitX());
     LineClearance kept = clearance;
     kept.found = false;
+    kept.C = clearance.keptC, kept.N = clearance.keptN;
     if (kept.N.allFinite() && kept.C.p.allFinite()) surface.findLineClearance(A_S, e_S, kept);
     if (!kept.found) {
         const Vec3 D = A_S + surface.findLowestPoint(A_S, e_S, length) * e_S;
@@ -121,6 +157,8 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
         kept.scale = 1 / surface.getSize();
         kept.lineCoordinate = s;
     }
+    const bool isClear = kept.distance > 0 || !kept.keptN.allFinite();
+    if (isClear) kept.keptC = kept.C, kept.keptN = kept.N;
     clearance = kept;
 }
 

@@ -1,23 +1,12 @@
 /** Constructors, descriptions and closed forms of the elementary shapes. */
+#include "shape_checks.h"
 #include "tautline/cylinder.h"
 #include "tautline/ellipsoid.h"
-#include "tautline/error.h"
 #include "tautline/sphere.h"
 #include "tautline/torus.h"
 
 namespace tautline {
 namespace {
-
-void requireLength(double value, const char* what) {
-    require(std::isfinite(value) && value > 0, what, " must be positive and finite, but is ", value);
-}
-
-template <class... Parts>
-std::string describe(const Parts&... parts) {
-    std::ostringstream text;
-    (text << ... << parts);
-    return text.str();
-}
 
 /** A unit vector orthogonal to unit e, nearest to `wish` if that is not along e. */
 Vec3 makeOrthogonalUnit(const Vec3& e, const Vec3& wish) {
@@ -33,7 +22,7 @@ Sphere::Sphere(double radius) : m_radius(radius) {
 }
 
 std::string Sphere::getDescription() const {
-    return describe("sphere(radius=", m_radius, ")");
+    return describeShape("sphere(radius=", m_radius, ")");
 }
 
 double Sphere::calcHeight(const Vec3& p_S, Vec3& N_S) const {
@@ -69,7 +58,8 @@ void Sphere::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& 
     const Vec3 D = A_S + s * e_S;  // nearest the centre
     Vec3 N = makeOrthogonalUnit(e_S, D);
     if (N.dot(clearance.N) < 0) N = -N;  // of the two critical points, the one on the side that is kept
-    clearance = {{m_radius * N}, N, s, D.dot(N) - m_radius, 1 / m_radius, true};
+    clearance.C = {m_radius * N}, clearance.N = N, clearance.lineCoordinate = s;
+    clearance.distance = D.dot(N) - m_radius, clearance.scale = 1 / m_radius, clearance.found = true;
 }
 
 Cylinder::Cylinder(double radius) : m_radius(radius) {
@@ -77,7 +67,7 @@ Cylinder::Cylinder(double radius) : m_radius(radius) {
 }
 
 std::string Cylinder::getDescription() const {
-    return describe("cylinder(radius=", m_radius, ")");
+    return describeShape("cylinder(radius=", m_radius, ")");
 }
 
 double Cylinder::calcHeight(const Vec3& p_S, Vec3& N_S) const {
@@ -119,7 +109,8 @@ void Cylinder::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance
     if (side < 0) N = -N;
     const Vec3 C(m_radius * N.x(), m_radius * N.y(), D.z());
     // kappa_n along the line vanishes with sine2; 1/size stands in for it then.
-    clearance = {{C}, N, s, (D - C).dot(N), 1 / m_radius, true};
+    clearance.C = {C}, clearance.N = N, clearance.lineCoordinate = s;
+    clearance.distance = (D - C).dot(N), clearance.scale = 1 / m_radius, clearance.found = true;
 }
 
 Ellipsoid::Ellipsoid(const Vec3& semiAxes) : m_semiAxes(semiAxes), m_size(semiAxes.minCoeff()) {
@@ -130,7 +121,7 @@ Ellipsoid::Ellipsoid(const Vec3& semiAxes) : m_semiAxes(semiAxes), m_size(semiAx
 }
 
 std::string Ellipsoid::getDescription() const {
-    return describe("ellipsoid(semi-axes=", m_semiAxes.x(), ", ", m_semiAxes.y(), ", ", m_semiAxes.z(), ")");
+    return describeShape("ellipsoid(semi-axes=", m_semiAxes.x(), ", ", m_semiAxes.y(), ", ", m_semiAxes.z(), ")");
 }
 
 double Sphere::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
@@ -156,7 +147,7 @@ Torus::Torus(double ringRadius, double tubeRadius) : m_ringRadius(ringRadius), m
 }
 
 std::string Torus::getDescription() const {
-    return describe("torus(ring radius=", m_ringRadius, ", tube radius=", m_tubeRadius, ")");
+    return describeShape("torus(ring radius=", m_ringRadius, ", tube radius=", m_tubeRadius, ")");
 }
 
 double Torus::calcHeight(const Vec3& p_S, Vec3& N_S) const {

@@ -38,7 +38,8 @@ void Surface::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance&
         if (!(end.N.dot(clearance.N) > 0)) return;     // slid to another critical point
         const double distance = end.N.dot(A_S - C.p);  // e . N = 0: the same from any point of the line
         const double s0 = e_S.dot(C.p - A_S);
-        clearance = {C, end.N, s0, distance, std::max(std::abs(end.kappaN), 1 / size), true};
+        clearance.C = C, clearance.N = end.N, clearance.lineCoordinate = s0, clearance.distance = distance;
+        clearance.scale = std::max(std::abs(end.kappaN), 1 / size), clearance.found = true;
         return;
     }
 }

@@ -26,4 +26,11 @@ struct DarbouxFrame {
     DarbouxFrame reexpressedBy(const Pose& X) const { return {X * x, X.R * t, X.R * N, X.R * B, kappaN, tauG, kappaB}; }
 };
 
+/** The unit tangent nearest a direction; any tangent for a direction along the normal. */
+inline Vec3 makeTangent(const Vec3& direction, const Vec3& N) {
+    const Vec3 tangent = direction - direction.dot(N) * N;
+    const double length = tangent.norm();
+    return length > 1e-12 * direction.norm() ? Vec3(tangent / length) : N.unitOrthogonal();
+}
+
 }  // namespace tautline

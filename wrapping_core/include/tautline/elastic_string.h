@@ -18,6 +18,9 @@ public:
     spacing per sweep, or `maxSweeps`. @param fineness   spacing of nodes relative to the default */
     void relax(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance, int maxSweeps);
 
+    /** Moves the nodes that touch an element, to free a string from a saddle. @param by_G   in ground [m] */
+    void push(int element, const Vec3& by_G);
+
     /** Contact set, geodesic starts (touched) and switched-off obstacles as the string shows them. */
     void extractContacts(const PathProblem& problem, const PathPose& pose,
                          std::vector<ObstacleContact>& contacts) const;
@@ -45,8 +48,9 @@ private:
     void remesh(const PathProblem& problem, double fineness);
     void updatePortions(const PathProblem& problem);
     double sweep(const PathProblem& problem, double relaxation, bool isForward);
+    std::size_t findFirstHold(int node) const;
     double calcRoom(const PathProblem& problem, const Vec3& x, int node) const;
-    void pushOut(const PathProblem& problem, int node, std::vector<Hold>& holds, double& room);
+    void pushOut(const PathProblem& problem, int node, double& room);
 
     std::vector<Vec3> m_nodes;
     std::vector<char> m_isFixed;

@@ -29,6 +29,7 @@ int integrateGeodesic(Equations& equations, typename Equations::State& y, double
     int accepted = 0;
     const double direction = length < 0 ? -1 : 1;
     equations.calcDerivative(y, slope);
+    if (!y.allFinite() || !slope.allFinite() || !std::isfinite(length)) return -1;
     for (int attempt = 0; attempt < options.maxSteps && done < std::abs(length); ++attempt) {
         const double left = std::abs(length) - done;
         // The rest in equal steps: a last step of rounding size would cost as much as a whole one.

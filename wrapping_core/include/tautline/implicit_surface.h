@@ -20,7 +20,7 @@ inline DarbouxFrame calcImplicitFrame(const ImplicitValue& value, const Vec3& p,
     const double g = value.gradient.norm();
     frame.x = p;
     frame.N = value.gradient / g;
-    frame.t = (direction - direction.dot(frame.N) * frame.N).normalized();
+    frame.t = makeTangent(direction, frame.N);
     frame.B = frame.t.cross(frame.N);
     const Vec3 dN_t = value.hessian * frame.t / g, dN_B = value.hessian * frame.B / g;
     frame.kappaN = -frame.t.dot(dN_t);

@@ -46,7 +46,7 @@ inline DarbouxFrame calcParametricFrame(const ParametricValue& s, double normalS
     const Metric metric(s);
     frame.x = s.x;
     frame.N = normalSign * s.xu.cross(s.xv).normalized();
-    frame.t = (direction - direction.dot(frame.N) * frame.N).normalized();
+    frame.t = makeTangent(direction, frame.N);
     frame.B = frame.t.cross(frame.N);
     const double L = s.xuu.dot(frame.N), M = s.xuv.dot(frame.N), N = s.xvv.dot(frame.N);  // Eqn. 3.23 to 3.25
     const Vec2 t = metric.calcRates(s, frame.t), B = metric.calcRates(s, frame.B);

@@ -35,12 +35,14 @@ public:
 
     /** Solves with the contact set of `path` as it is, so that the equations stay smooth past lift-off
     (arcs of negative length) and touchdown (clearances below zero) while an integrator locates the event.
-    `path` must come from an earlier solve. */
+    `path` must come from an earlier solve. Its status tells only whether the path error vanishes. */
     void solveKeepingContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 private:
     enum class Outcome { Converged, Failed };
 
+    const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
+    void leaveSaddle(const PathProblem& problem, const PathPose& pose, const PathSolution& path);
     bool findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool findColdPath(const PathProblem& problem, const PathPose& pose, const PathSolution* previous,
                       PathSolution& path);
@@ -65,6 +67,7 @@ private:
     BandedSolver m_normal{2 * kPathBandwidth, 2 * kPathBandwidth};  ///< J^T J + damping, only when Newton fails
     std::vector<double> m_eps, m_trialEps, m_step;
     PathSolution m_previous;
+    PathPose m_liftedPose;
 };
 
 /** Puts a lifted obstacle in contact where its clearance was measured: the start of an arc for Newton's

@@ -14,6 +14,7 @@ struct PathVerification {
         NegativeLength,   ///< an arc shorter than -1e-12 of the surface's size
         PullsOutward,     ///< kappa_n > 0 somewhere on an arc: a string would lift there
         ConjugatePoint,   ///< the arc is longer than a shortest curve can be
+        Unstable,         ///< the second variation of the length is not positive: a saddle or a longest path
         Penetration,      ///< a straight segment passes below a surface
         OutsideDomain,    ///< an arc leaves the domain of its surface
     };
@@ -30,9 +31,9 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
 std::string describe(const PathVerification& verification, const PathProblem& problem);
 
 /** Signed distance between the straight segment A B (ground) and a surface (thesis Cha. 6), on the side of
-`clearance.N` if that is set, else on the side that the segment suggests. Where the critical point D is
+`clearance.keptN` if that is set, else on the side that the segment suggests. Where the critical point D is
 not between the ends, the height of the nearer end counts.
-@param clearance   in: C and N of the last accepted state, or nothing; out: today's */
+@param clearance   in: that of the last accepted state, or nothing; out: today's */
 void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& A_G, const Vec3& B_G,
                           LineClearance& clearance);
 

@@ -10,11 +10,16 @@ namespace tautline {
 D on the line, C on the surface, D - C orthogonal to both. */
 struct LineClearance {
     SurfacePoint C;                 ///< in S
-    Vec3 N = Vec3::Constant(kNaN);  ///< outward normal at C, in S: the side that is watched
+    Vec3 N = Vec3::Constant(kNaN);  ///< outward normal at C, in S
     double lineCoordinate = kNaN;   ///< of D, from the segment's start [m]
     double distance = kNaN;         ///< d = (D - C) . N [m], negative: the line is below the surface
     double scale = 1;               ///< max(|kappa_n|, 1/size) at C: d * scale is compared with d_tol
     bool found = false;             ///< false: no critical point was found from the start given
+
+    /** The side that is watched: C and N of the last line that was clear of the surface. They stay while a line
+    is below it, or a line that goes through in many steps would carry the side along to the other one. */
+    SurfacePoint keptC;
+    Vec3 keptN = Vec3::Constant(kNaN);
 };
 
 /** A smooth surface in its own frame S, outward normal N: what a string can wrap over.
@@ -50,8 +55,9 @@ public:
     virtual void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options,
                                Geodesic& geodesic) const = 0;
 
-    /** Newton's method for the critical point of the line A + s e near `clearance.C` on the side of
-    `clearance.N`, which both must be set; see line_clearance.h. */
+    /** The critical point of the line A + s e, by Newton's method from `clearance.C` and on the side of
+    `clearance.N`; sets all fields but the kept ones. Closed forms need no C, and without N (not finite) take the
+    side on which the line passes. findSegmentClearance() calls this with what is kept. */
     virtual void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const;
 
     /** Coordinate s in [0, length] at which the segment A + s e is lowest over the surface: where to look for

@@ -32,12 +32,12 @@ struct ContactEvent {
 /** What a cable's solves have cost since construction or the last reset, over all States and threads. */
 struct CableStatistics {
     long numSolves = 0;
-    long numColdSolves = 0;   ///< started anew instead of continued
-    long numFailures = 0;     ///< ended as NotConverged
-    long numIterations = 0;   ///< of Newton's method
-    long numShots = 0;        ///< geodesics shot
+    long numColdSolves = 0;     ///< started anew instead of continued
+    long numFailures = 0;       ///< ended as NotConverged
+    long numIterations = 0;     ///< of Newton's method
+    long numShots = 0;          ///< geodesics shot
     long numContactEvents = 0;  ///< contacts made or lost by the event handlers
-    double seconds = 0;       ///< spent in the solver
+    double seconds = 0;         ///< spent in the solver
 };
 
 /** A taut, frictionless, massless string from a point on one body over via points and smooth obstacles on
@@ -56,9 +56,8 @@ public:
     @param originStation_B, insertionStation_B   finite, measured in the body's frame [m]
     @param name   for messages and decorations; empty: "cable0", "cable1", ...
     @throws InvalidInput with the value */
-    Cable(CableSubsystem& cables, const SimTK::MobilizedBody& originBody,
-          const SimTK::Vec3& originStation_B, const SimTK::MobilizedBody& insertionBody,
-          const SimTK::Vec3& insertionStation_B, std::string name = "");
+    Cable(CableSubsystem& cables, const SimTK::MobilizedBody& originBody, const SimTK::Vec3& originStation_B,
+          const SimTK::MobilizedBody& insertionBody, const SimTK::Vec3& insertionStation_B, std::string name = "");
 
     /** @name Building: before realizeTopology() */
     ///@{
@@ -74,8 +73,7 @@ public:
     @param name      unique within the cable; empty: "obstacle1", ... by element index */
     CableElementIndex addObstacle(const SimTK::MobilizedBody& body, const SimTK::Transform& X_BS,
                                   std::shared_ptr<const Surface> surface,
-                                  std::optional<SimTK::Vec3> hint_S = std::nullopt,
-                                  std::string name = "");
+                                  std::optional<SimTK::Vec3> hint_S = std::nullopt, std::string name = "");
 
     void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
 
@@ -143,8 +141,8 @@ public:
     /** Length of the arc on an obstacle [m]; 0 while lifted. */
     SimTK::Real getArcLength(const SimTK::State& state, CableElementIndex obstacle) const;
     /** Where the path meets (P) and leaves (Q) an obstacle, in ground. @return false while lifted */
-    bool getContactPoints(const SimTK::State& state, CableElementIndex obstacle,
-                          SimTK::Vec3& P_G, SimTK::Vec3& Q_G) const;
+    bool getContactPoints(const SimTK::State& state, CableElementIndex obstacle, SimTK::Vec3& P_G,
+                          SimTK::Vec3& Q_G) const;
     /** Signed distance of the straight segment that passes a lifted obstacle [m]; NaN while touched. */
     SimTK::Real getClearance(const SimTK::State& state, CableElementIndex obstacle) const;
     /** What the event finder watches, dimensionless: contact changes where it falls below zero. Lifted:
@@ -152,8 +150,7 @@ public:
     unless the contact is about to change; 1 while contacts are free. */
     SimTK::Real getWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     /** Points along the path in ground, arcs turned by at most maxAngle [rad] between points. */
-    std::vector<SimTK::Vec3> calcDrawingPoints(const SimTK::State& state,
-                                               SimTK::Real maxAngle = 0.1) const;
+    std::vector<SimTK::Vec3> calcDrawingPoints(const SimTK::State& state, SimTK::Real maxAngle = 0.1) const;
     ///@}
 
     /** @name Forces: unit tension unless one is given [Position] */
@@ -164,11 +161,9 @@ public:
                          SimTK::Vector_<SimTK::SpatialVec>& bodyForces) const;
     /** Moment [m] and force [1] of unit tension on each body, about body origins, in ground.
     @param unitForces   resized and overwritten */
-    void calcUnitBodyForces(const SimTK::State& state,
-                            SimTK::Vector_<SimTK::SpatialVec>& unitForces) const;
+    void calcUnitBodyForces(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& unitForces) const;
     /** As calcUnitBodyForces(), for one element and about the element's origin E. */
-    SimTK::SpatialVec calcUnitElementForce(const SimTK::State& state,
-                                           CableElementIndex element) const;
+    SimTK::SpatialVec calcUnitElementForce(const SimTK::State& state, CableElementIndex element) const;
     /** Generalized forces of unit tension, one per mobility: -d(length rate)/du. */
     void calcUnitMobilityForces(const SimTK::State& state, SimTK::Vector& unitForces) const;
     /** Moment arm -dl/dq about one mobility whose speed u is q's derivative [m/rad or 1]: positive where

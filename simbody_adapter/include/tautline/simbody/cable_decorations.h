@@ -18,8 +18,7 @@ public:
     CableDecorations& setCylinderHalfLength(SimTK::Real radii);
 
     /** Realizes the state to Position where it is not. */
-    void generateDecorations(const SimTK::State& state,
-                             SimTK::Array_<SimTK::DecorativeGeometry>& geometry) override;
+    void generateDecorations(const SimTK::State& state, SimTK::Array_<SimTK::DecorativeGeometry>& geometry) override;
 
 private:
     const CableSubsystem& m_cables;

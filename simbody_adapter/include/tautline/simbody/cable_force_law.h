@@ -28,8 +28,7 @@ public:
     virtual void realizeTopology(SimTK::State&, const SimTK::Subsystem& /*forces*/) {}
 
     /** Set the derivatives of one's own z's: forces.updZDot(state)[...]. Stage: Dynamics. */
-    virtual void realizeDerivatives(const SimTK::State&, const SimTK::Subsystem& /*forces*/) const {
-    }
+    virtual void realizeDerivatives(const SimTK::State&, const SimTK::Subsystem& /*forces*/) const {}
 
 private:
     Cable m_cable;

@@ -17,8 +17,8 @@ public:
     @param stiffness     k [N/m], >= 0
     @param damping       c [s/m], >= 0
     @throws InvalidInput with the value */
-    ElasticStringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
-                       SimTK::Real slackLength, SimTK::Real stiffness, SimTK::Real damping = 0);
+    ElasticStringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, SimTK::Real slackLength,
+                       SimTK::Real stiffness, SimTK::Real damping = 0);
 
     SimTK::Real getSlackLength() const;
     SimTK::Real getStiffness() const;
@@ -34,14 +34,12 @@ class PrescribedTensionForce : public CableForce {
 public:
     PrescribedTensionForce() = default;
     /** A tension that can be changed in each State. @param tension   default [N], finite and >= 0 */
-    PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
-                           SimTK::Real tension);
+    PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, SimTK::Real tension);
     /** @param calcTension   [N] of a State realized to Velocity */
     PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
                            std::function<SimTK::Real(const SimTK::State&)> calcTension);
     /** @param tensionOfTime   of one argument, the time [s]; the force takes it over */
-    PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
-                           SimTK::Function* tensionOfTime);
+    PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, SimTK::Function* tensionOfTime);
 
     /** For a force made with a constant tension only; invalidates Dynamics. @throws InvalidInput for a
     tension below zero or a force made with a function */

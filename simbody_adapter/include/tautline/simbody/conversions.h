@@ -6,8 +6,12 @@
 
 namespace tautline {
 
-inline Vec3 toEigen(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
-inline SimTK::Vec3 toSimTK(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline Vec3 toEigen(const SimTK::Vec3& v) {
+    return {v[0], v[1], v[2]};
+}
+inline SimTK::Vec3 toSimTK(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
 
 inline Mat3 toEigen(const SimTK::Mat33& m) {
     Mat3 result;

@@ -5,20 +5,20 @@ namespace tautline {
 
 /** What a HillMuscle is made of. Defaults are typical; isometric force, fibre and tendon lengths are not. */
 struct HillMuscleParameters {
-    SimTK::Real maxIsometricForce = 1000;   ///< F_0 [N]
-    SimTK::Real optimalFibreLength = 0.1;   ///< l_0 [m]
-    SimTK::Real tendonSlackLength = 0.2;    ///< l_T [m]: of the rigid tendon
-    SimTK::Real pennationAtOptimal = 0;     ///< of the fibre at its optimal length [rad], in [0, pi/2)
+    SimTK::Real maxIsometricForce = 1000;     ///< F_0 [N]
+    SimTK::Real optimalFibreLength = 0.1;     ///< l_0 [m]
+    SimTK::Real tendonSlackLength = 0.2;      ///< l_T [m]: of the rigid tendon
+    SimTK::Real pennationAtOptimal = 0;       ///< of the fibre at its optimal length [rad], in [0, pi/2)
     SimTK::Real maxContractionVelocity = 10;  ///< in optimal fibre lengths per second
-    SimTK::Real activationTime = 0.01;      ///< time constant while excitation > activation [s]
-    SimTK::Real deactivationTime = 0.04;    ///< time constant else [s]
-    SimTK::Real activeWidth = 0.45;         ///< gamma of the active force-length curve
-    SimTK::Real passiveStrain = 0.6;        ///< fibre strain at which the passive force is F_0
-    SimTK::Real passiveShape = 4;           ///< k of the exponential passive curve
-    SimTK::Real concentricShape = 0.25;     ///< a of Hill's hyperbola, in F_0
-    SimTK::Real eccentricForce = 1.4;       ///< limit of the force-velocity curve in lengthening
-    SimTK::Real defaultExcitation = 0;      ///< in [0, 1]
-    SimTK::Real defaultActivation = 0;      ///< in [0, 1]
+    SimTK::Real activationTime = 0.01;        ///< time constant while excitation > activation [s]
+    SimTK::Real deactivationTime = 0.04;      ///< time constant else [s]
+    SimTK::Real activeWidth = 0.45;           ///< gamma of the active force-length curve
+    SimTK::Real passiveStrain = 0.6;          ///< fibre strain at which the passive force is F_0
+    SimTK::Real passiveShape = 4;             ///< k of the exponential passive curve
+    SimTK::Real concentricShape = 0.25;       ///< a of Hill's hyperbola, in F_0
+    SimTK::Real eccentricForce = 1.4;         ///< limit of the force-velocity curve in lengthening
+    SimTK::Real defaultExcitation = 0;        ///< in [0, 1]
+    SimTK::Real defaultActivation = 0;        ///< in [0, 1]
 
     /** @throws InvalidInput naming the parameter and its value */
     void validate() const;
@@ -47,8 +47,7 @@ class HillMuscle : public CableForce {
 public:
     HillMuscle() = default;
     /** @throws InvalidInput as HillMuscleParameters::validate() */
-    HillMuscle(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
-               const HillMuscleParameters& parameters);
+    HillMuscle(SimTK::GeneralForceSubsystem& forces, const Cable& cable, const HillMuscleParameters& parameters);
 
     const HillMuscleParameters& getParameters() const;
 
