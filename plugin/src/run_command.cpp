@@ -1,6 +1,7 @@
 #include "run_command.h"
 
 #include "run_report.h"
+#include "simulation.h"
 #include "tautline/models/osim_reader.h"
 
 namespace tautline {

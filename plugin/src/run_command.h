@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <ostream>
 
-#include "simulation.h"
+#include "excitations.h"
+#include "simulation_options.h"
 
 namespace tautline {
 

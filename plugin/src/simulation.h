@@ -5,16 +5,11 @@
 #include <vector>
 
 #include "excitations.h"
+#include "simulation_options.h"
 #include "storage_file.h"
 #include "tautline/models/model_system.h"
 
 namespace tautline {
-
-struct SimulationOptions {
-    double duration = 1;     ///< [s]
-    double interval = 0.01;  ///< between rows of the results [s]
-    double accuracy = 1e-6;  ///< of the integrator
-};
 
 /** What one muscle's path did over a simulation. */
 struct MuscleSummary {

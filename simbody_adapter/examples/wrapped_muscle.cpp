@@ -12,7 +12,7 @@ int main() {
     tautline::CableSubsystem cables(system);
     Force::Gravity(forces, matter, -YAxis, 9.81);
     const Body::Rigid bone(MassProperties(1.5, Vec3(0), UnitInertia(0.01)));
-    MobilizedBody::Pin forearm(matter.Ground(), bone, Vec3(0, 0.15, 0));
+    MobilizedBody::Pin forearm(matter.Ground(), Vec3(0), bone, Vec3(0, 0.15, 0));
 
     tautline::Cable path(cables, matter.Ground(), Vec3(-0.02, 0.3, 0), forearm, Vec3(-0.03, 0.1, 0));
     path.addObstacle(matter.Ground(), Vec3(0), std::make_shared<tautline::Cylinder>(0.03), Vec3(-0.03, 0, 0));

@@ -46,8 +46,9 @@ void expectDrawable(const Scene& scene, const PathSolution& path) {
         EXPECT_TRUE(s.A.allFinite() && s.B.allFinite() && s.e.allFinite() && std::isfinite(s.length));
         EXPECT_NEAR(s.e.norm(), 1, 1e-14);
     }
-    EXPECT_EQ((path.segments.front().A - scene.pose.X_GE.front().p).norm(), 0);
-    EXPECT_EQ((path.segments.back().B - scene.pose.X_GE.back().p).norm(), 0);
+    // An end that lies on a surface is lifted off by 1e-7 of its size (path_solver.h), all others stay.
+    EXPECT_LT((path.segments.front().A - scene.pose.X_GE.front().p).norm(), 2e-7);
+    EXPECT_LT((path.segments.back().B - scene.pose.X_GE.back().p).norm(), 2e-7);
     std::vector<Vec3> points;
     calcDrawingPoints(path, scene.problem, scene.pose, 0.1, points);
     for (const Vec3& p : points) EXPECT_TRUE(p.allFinite());
@@ -243,7 +244,8 @@ TEST(PathSolver, ConvergesQuadratically) {
             // From 1e-7 on the square is rounding.
             for (std::size_t i = 0; i + 1 < error.size(); ++i) {
                 if (error[i] > 0.03 || error[i] < 1e-7) continue;
-                EXPECT_LT(error[i + 1], 20 * error[i] * error[i] + 1e-13) << i;
+                // The constant is the scene's: curvature over straight length, at most 25 or so here.
+                EXPECT_LT(error[i + 1], 40 * error[i] * error[i] + 1e-13) << i;
                 ++pairs;
             }
         }
@@ -335,9 +337,9 @@ TEST(PathSolverStatus, ArcBeyondItsConjugatePointIsNotMinimum) {
 }
 
 // Symptom (2026-11-22): status Solved and length 6.406 for a path over the far side of a sphere that holds it by
-// unstable balance only: raised beside the path, any push makes it slip off (straight line clearance aside, the way
-// under the centre has 6.273). The arc alone has no conjugate point; arc and straight parts together have.
-TEST(PathSolverStatus, DISABLED_PathBalancedOnTheFarSideOfASphereIsNotMinimum) {
+// unstable balance only (the way under the centre has 6.273). The arc alone has no conjugate point; the second
+// variation over arc and straight parts together is not positive.
+TEST(PathSolverStatus, PathBalancedOnTheFarSideOfASphereIsNotMinimum) {
     Scene scene;
     scene.point(Vec3(-3, 0, 0)).obstacle(std::make_shared<Sphere>(1), Pose(Vec3(0, 0.1, 1e-4)), Vec3(0, 1, 0));
     scene.point(Vec3(3, 0, 0));
@@ -400,10 +402,31 @@ TEST(PathSolverDegenerate, EveryShapeFromEveryAwkwardPlace) {
 }
 
 // Symptom (2026-11-22): segments of length 0 with e = 0 where both ends lie on the surface itself.
-TEST(PathSolverDegenerate, DISABLED_EndsOnTheSurfaceLeaveUnitDirections) {
+TEST(PathSolverDegenerate, EndsOnTheSurfaceLeaveUnitDirections) {
     Scene scene;
     scene.point(Vec3(-0.5, 0, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose()).point(Vec3(0.5, 0, 0));
     expectDrawable(scene, scene.solve());
+}
+
+// Symptom (2026-11-22): not_converged or not_minimum where a muscle's origin lies exactly on its wrap surface.
+TEST(PathSolverDegenerate, PathFromAPointOnTheSurfaceLeavesItAlongAGeodesic) {
+    // Half around the cylinder, and a quarter and a bit to a tangent line; heights of 1e-7 radii change 1e-10 of
+    // length.
+    Scene around;
+    around.point(Vec3(-0.5, 0, 0)).obstacle(std::make_shared<Cylinder>(0.5), Pose(), Vec3(0, 0.5, 0));
+    around.point(Vec3(0.5, 0, 0));
+    const PathSolution half = around.solve();
+    EXPECT_EQ(half.status, PathStatus::Solved);
+    EXPECT_NEAR(half.length, kPi / 2, 1e-9);
+    for (const std::optional<Vec3>& hint : {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 0.5, 0))}) {
+        Scene away;
+        away.point(Vec3(-0.5, 0, 0)).obstacle(std::make_shared<Cylinder>(0.5), Pose(), hint).point(Vec3(3, 0.3, 0));
+        const PathSolution path = away.solve();
+        const double distance = std::hypot(3, 0.3);
+        const double turn = kPi - std::atan2(0.3, 3) - std::acos(0.5 / distance);
+        EXPECT_EQ(path.status, PathStatus::Solved);
+        EXPECT_NEAR(path.length, 0.5 * turn + std::sqrt(distance * distance - 0.25), 1e-9);
+    }
 }
 
 TEST(PathSolverDegenerate, LineAlongTheAxisOfATorusRunsThroughItsHole) {
@@ -478,8 +501,8 @@ TEST(PathSolver, WarmSolveDoesNotAllocate) {
         EXPECT_FALSE(path.wasCold);
     }
     const long before = allocationCount;
-    delete new int;
-    EXPECT_GT(allocationCount, before);  // the counter counts
+    const std::vector<int> numbers(static_cast<std::size_t>(before % 7 + 100));  // of a size unknown when compiled
+    EXPECT_GT(allocationCount, before) << numbers.data();                        // the counter counts
 }
 
 // ---- Refused input.

@@ -7,6 +7,13 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 
+# tautline_optimize_lightly(<sources>): for sources that run once, to build fast. They cannot share a precompiled
+# header with others.
+function(tautline_optimize_lightly)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>"
+                                                       SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
 # tautline_target(<target>): call once for every library and program of ours.
 function(tautline_target target)
     target_compile_features(${target} PUBLIC cxx_std_17)

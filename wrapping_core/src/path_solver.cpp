@@ -14,7 +14,8 @@ constexpr double kMaxTurn = 0.6;        ///< of the start direction in one step 
 constexpr int kMaxHalvings = 6;         ///< of a Newton step that does not lower the error
 constexpr int kMaxDampings = 8;         ///< tenfold increases of the damping of a least-squares step
 constexpr double kEndHeight = 1e-7;     ///< of ends that lie on a surface, in its sizes
-constexpr double kSaddlePush = 0.1;     ///< sideways push of a string that rests on a saddle, in sizes
+constexpr double kSaddlePush = 0.1;     ///< first sideways push of a string that rests on a saddle, in sizes
+constexpr int kMaxSaddles = 4;          ///< pushes, each twice the one before
 constexpr double kLiftLength = -1e-12;  ///< arcs shorter than this (in sizes) are lifted
 
 double calcNorm(const std::vector<double>& v) {
@@ -115,28 +116,40 @@ bool PathSolver::findColdPath(const PathProblem& problem, const PathPose& pose, 
         int maxSweeps;
     };
     constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 6000}};
+    constexpr Level kFromSaddle = {0.5, 1e-6, 4000};  // it slides off slowly
     path.wasCold = true;
     m_string.lay(problem, pose, previous);
     for (const Level& level : kLevels) {
-        m_string.relax(problem, pose, level.fineness, level.tolerance, level.maxSweeps);
-        for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
-        m_string.extractContacts(problem, pose, path.contacts);
-        if (findPath(problem, pose, path)) return true;
-        leaveSaddle(problem, pose, path);
+        if (tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, path)) return true;
+        double push = kSaddlePush;
+        for (int i = 0; i < kMaxSaddles && leaveSaddle(problem, pose, push, path); ++i, push *= 2)
+            if (tightenString(problem, pose, kFromSaddle.fineness, kFromSaddle.tolerance, kFromSaddle.maxSweeps, path))
+                return true;
     }
     return false;
 }
 
-/** A string laid symmetrically stays on a saddle: where the path is one, it is pushed off sideways. */
-void PathSolver::leaveSaddle(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
-    if (!(path.pathError <= m_options.pathErrorTolerance)) return;
+/** @return true if Newton's method leads on from the relaxed string to a verified minimum */
+bool PathSolver::tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
+                               int maxSweeps, PathSolution& path) {
+    m_string.relax(problem, pose, fineness, tolerance, maxSweeps);
+    for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
+    m_string.extractContacts(problem, pose, path.contacts);
+    return findPath(problem, pose, path);
+}
+
+/** A string laid symmetrically stays on a saddle: where the path is one, it is pushed off sideways.
+@return false if the path is no saddle */
+bool PathSolver::leaveSaddle(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path) {
+    if (!(path.pathError <= m_options.pathErrorTolerance)) return false;
     const PathVerification verification = verifyPath(problem, pose, path);
     if (verification.condition != PathVerification::Condition::Unstable &&
         verification.condition != PathVerification::Condition::ConjugatePoint)
-        return;
+        return false;
     const int e = verification.element;
-    const double push = kSaddlePush * problem.getElement(e).surface->getSize();
-    m_string.push(e, push * (pose.X_GE[e].R * path.contacts[e].geodesic.P.B));
+    m_string.push(e,
+                  push * problem.getElement(e).surface->getSize() * (pose.X_GE[e].R * path.contacts[e].geodesic.P.B));
+    return true;
 }
 
 /** Newton on one contact set, then lift what has negative length and touch what is penetrated, one at a
@@ -160,6 +173,7 @@ Jacobian singular), damped least-squares steps take its place. */
 PathSolver::Outcome PathSolver::iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     path.errorHistory.clear();
     m_chain.build(problem, pose, path.contacts);
+    m_trial = m_chain;  // the same contacts and segments; steps change the geodesics only
     const bool isFinite = shootChain(problem, pose, m_options.geodesics, m_chain);
     path.shots += static_cast<int>(m_chain.contacts.size());
     path.pathError = calcPathError(m_chain, m_eps);
@@ -250,7 +264,6 @@ double PathSolver::calcStepFraction(const PathProblem& problem) const {
 }
 
 void PathSolver::applyStep(const PathProblem& problem, double fraction) {
-    m_trial = m_chain;
     for (std::size_t i = 0; i < m_chain.contacts.size(); ++i) {
         const ChainContact& contact = m_chain.contacts[i];
         const Vec4 correction = fraction * Eigen::Map<const Vec4>(&m_step[kVariations * i]);

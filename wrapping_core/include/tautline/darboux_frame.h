@@ -30,7 +30,7 @@ struct DarbouxFrame {
 inline Vec3 makeTangent(const Vec3& direction, const Vec3& N) {
     const Vec3 tangent = direction - direction.dot(N) * N;
     const double length = tangent.norm();
-    return length > 1e-12 * direction.norm() ? Vec3(tangent / length) : N.unitOrthogonal();
+    return length <= 1e-12 * direction.norm() ? N.unitOrthogonal() : Vec3(tangent / length);  // NaN stays NaN
 }
 
 }  // namespace tautline

@@ -44,4 +44,7 @@ public:
     }
 };
 
+extern template class ParametricShape<ParametricEllipticCylinder>;
+extern template class ParametricTwin<ParametricEllipticCylinder, EllipticCylinder>;
+
 }  // namespace tautline

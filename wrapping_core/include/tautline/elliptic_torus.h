@@ -68,4 +68,7 @@ public:
     }
 };
 
+extern template class ParametricShape<ParametricEllipticTorus>;
+extern template class ParametricTwin<ParametricEllipticTorus, EllipticTorus>;
+
 }  // namespace tautline

@@ -47,4 +47,7 @@ public:
     Vec2 calcNearbyParameters(const Vec3& p_S, int) const { return p_S.head<2>(); }
 };
 
+extern template class ParametricShape<ParametricParaboloid>;
+extern template class ParametricTwin<ParametricParaboloid, Paraboloid>;
+
 }  // namespace tautline

@@ -26,4 +26,7 @@ public:
     }
 };
 
+extern template class ParametricShape<ParametricCylinder>;
+extern template class ParametricTwin<ParametricCylinder, Cylinder>;
+
 }  // namespace tautline

@@ -22,4 +22,7 @@ private:
     EllipsoidCharts m_charts;
 };
 
+extern template class ParametricShape<ParametricEllipsoid>;
+extern template class ParametricTwin<ParametricEllipsoid, Ellipsoid>;
+
 }  // namespace tautline

@@ -29,4 +29,7 @@ private:
     EllipsoidCharts m_charts;
 };
 
+extern template class ParametricShape<ParametricSphere>;
+extern template class ParametricTwin<ParametricSphere, Sphere>;
+
 }  // namespace tautline

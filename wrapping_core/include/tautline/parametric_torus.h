@@ -21,4 +21,7 @@ public:
     }
 };
 
+extern template class ParametricShape<ParametricTorus>;
+extern template class ParametricTwin<ParametricTorus, Torus>;
+
 }  // namespace tautline

@@ -28,7 +28,9 @@ public:
     const PathSolverOptions& getOptions() const { return m_options; }
 
     /** Solves for path and contact set. An empty `path` is a cold start from the problem's hints; otherwise
-    it is continued from, and found anew along it where that fails.
+    it is continued from, and found anew along it where that fails. A fixed point that lies on a surface (to 1e-7 of
+    its size) is treated as lying 1e-7 sizes above it, where a straight segment still has a direction; that changes
+    the length by about 1e-10 sizes.
     @param pose   one pose per element; InvalidInput if their number differs. Never throws for finite poses
     @param path   in: start; out: the answer, finite and drawable whatever its status */
     void solve(const PathProblem& problem, const PathPose& pose, PathSolution& path);
@@ -42,7 +44,9 @@ private:
     enum class Outcome { Converged, Failed };
 
     const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
-    void leaveSaddle(const PathProblem& problem, const PathPose& pose, const PathSolution& path);
+    bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
+                       int maxSweeps, PathSolution& path);
+    bool leaveSaddle(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
     bool findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool findColdPath(const PathProblem& problem, const PathPose& pose, const PathSolution* previous,
                       PathSolution& path);
