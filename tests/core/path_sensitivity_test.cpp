@@ -34,7 +34,7 @@ struct MixedScene {
         problem.addPoint("insertion");
         const Mat3 across = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
         pose.X_GE = {Pose(Vec3(-0.4, -0.7, 0.5)), Pose(Vec3(0.8, 0.0, 0)), Pose(across, Vec3(2.6, 0.9, 0.1)),
-                     Pose(Vec3(3.2, -0.6, 0.1)),  Pose(Vec3(4.4, 0.1, 0)), Pose(Vec3(5.9, 0.95, -0.15)),
+                     Pose(Vec3(3.2, -0.6, 0.1)),  Pose(Vec3(4.4, 0.1, 0)), Pose(Vec3(5.9, 0.4, -0.2)),
                      Pose(Vec3(6.8, 0.6, -0.3))};
         solver.solve(problem, pose, path);
     }

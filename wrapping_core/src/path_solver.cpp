@@ -15,6 +15,7 @@ constexpr int kMaxHalvings = 6;         ///< of a Newton step that does not lowe
 constexpr int kMaxDampings = 8;         ///< tenfold increases of the damping of a least-squares step
 constexpr double kEndHeight = 1e-7;     ///< of ends that lie on a surface, in its sizes
 constexpr double kSaddlePush = 0.1;     ///< first sideways push of a string that rests on a saddle, in sizes
+constexpr int kMaxCuspRepairs = 3;      ///< of one contact set search
 constexpr int kMaxSaddles = 4;          ///< pushes, each twice the one before
 constexpr double kLiftLength = -1e-12;  ///< arcs shorter than this (in sizes) are lifted
 
@@ -104,7 +105,35 @@ const PathPose& PathSolver::calcLiftedPose(const PathProblem& problem, const Pat
 
 /** Continues from the contact set and starts in `path`. @return true if a verified minimum was found */
 bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
-    return iterateContactSet(problem, pose, path) && verifyPath(problem, pose, path).isMinimum();
+    for (int repair = 0; iterateContactSet(problem, pose, path); ++repair) {
+        const PathVerification verification = verifyPath(problem, pose, path);
+        if (verification.isMinimum()) return true;
+        if (verification.condition != PathVerification::Condition::ReversedTangent || repair == kMaxCuspRepairs)
+            return false;
+        turnCuspsRound(problem, pose, path);
+    }
+    return false;
+}
+
+/** eps vanishes too where a line meets its arc with e = -t. The tangent point that is meant lies about as far on
+the other side of the line's other end: each such end of an arc is moved by twice the line's length. */
+void PathSolver::turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
+    for (std::size_t j = 0; j < path.segments.size(); ++j) {
+        const StraightSegment& line = path.segments[j];
+        const double shift = 2 * line.length;
+        if (!problem.getElement(line.toElement).isPoint()) {
+            ObstacleContact& contact = path.contacts[line.toElement];
+            if (line.e.dot(pose.X_GE[line.toElement].R * contact.geodesic.P.t) < 0) {
+                const Surface& surface = *problem.getElement(line.toElement).surface;
+                contact.start =
+                    calcCorrectedStart(surface, contact.start, contact.geodesic.P, Vec4(shift, 0, 0, -shift));
+            }
+        }
+        if (!problem.getElement(line.fromElement).isPoint()) {
+            ObstacleContact& contact = path.contacts[line.fromElement];
+            if (line.e.dot(pose.X_GE[line.fromElement].R * contact.geodesic.Q.t) < 0) contact.start.length -= shift;
+        }
+    }
 }
 
 /** Lets a string fall taut along the guides, ever finer, until Newton's method leads on from it to a

@@ -44,6 +44,7 @@ private:
     enum class Outcome { Converged, Failed };
 
     const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
+    void turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
                        int maxSweeps, PathSolution& path);
     bool leaveSaddle(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
