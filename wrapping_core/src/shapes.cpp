@@ -6,6 +6,13 @@
 #include "tautline/torus.h"
 
 namespace tautline {
+
+// Declared extern in the headers: the integrator is compiled once for each shape, here.
+template class ImplicitShape<Sphere>;
+template class ImplicitShape<Cylinder>;
+template class ImplicitShape<Ellipsoid>;
+template class ImplicitShape<Torus>;
+
 namespace {
 
 /** A unit vector orthogonal to unit e, nearest to `wish` if that is not along e. */

@@ -29,4 +29,6 @@ private:
     double m_radius;
 };
 
+extern template class ImplicitShape<Cylinder>;
+
 }  // namespace tautline

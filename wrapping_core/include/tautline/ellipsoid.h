@@ -26,4 +26,6 @@ private:
     double m_size;
 };
 
+extern template class ImplicitShape<Ellipsoid>;
+
 }  // namespace tautline

@@ -28,4 +28,6 @@ private:
     double m_radius;
 };
 
+extern template class ImplicitShape<Sphere>;
+
 }  // namespace tautline

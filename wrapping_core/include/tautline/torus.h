@@ -40,4 +40,6 @@ private:
     double m_ringRadius, m_tubeRadius;
 };
 
+extern template class ImplicitShape<Torus>;
+
 }  // namespace tautline
