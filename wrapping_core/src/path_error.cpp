@@ -67,7 +67,7 @@ double calcPathError(const Chain& chain, std::vector<double>& eps) {
                                 eOut.dot(contact.Q.B)};  // Eqn. 4.3
         for (int row = 0; row < kVariations; ++row) {
             eps[kVariations * i + row] = local[row];
-            largest = std::max(largest, std::abs(local[row]));
+            largest = std::isnan(local[row]) ? kInfinity : std::max(largest, std::abs(local[row]));
         }
     }
     return largest;

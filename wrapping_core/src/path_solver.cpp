@@ -204,6 +204,7 @@ PathSolver::Outcome PathSolver::iterateNewton(const PathProblem& problem, const 
     m_chain.build(problem, pose, path.contacts);
     m_trial = m_chain;  // the same contacts and segments; steps change the geodesics only
     const bool isFinite = shootChain(problem, pose, m_options.geodesics, m_chain);
+    if (!isFinite) shortenBrokenArcs(problem, pose);
     path.shots += static_cast<int>(m_chain.contacts.size());
     path.pathError = calcPathError(m_chain, m_eps);
     path.errorHistory.push_back(path.pathError);
@@ -217,6 +218,19 @@ PathSolver::Outcome PathSolver::iterateNewton(const PathProblem& problem, const 
     }
     storeChain(path);
     return isFinite && path.pathError <= m_options.pathErrorTolerance ? Outcome::Converged : Outcome::Failed;
+}
+
+/** Where an arc cannot be shot, all are drawn as points of their surfaces: a path that is finite, if not more. */
+void PathSolver::shortenBrokenArcs(const PathProblem& problem, const PathPose& pose) {
+    for (ChainContact& contact : m_chain.contacts) {
+        const Surface& surface = *problem.getElement(contact.element).surface;
+        const Vec3 anywhere = Vec3::Constant(surface.getSize());
+        contact.start.point =
+            surface.findSurfacePoint(contact.start.point.p.allFinite() ? contact.start.point.p : anywhere);
+        contact.start.tangent = surface.calcFrame(contact.start.point, Vec3::UnitX()).t;
+        contact.start.length = 0;
+    }
+    shootChain(problem, pose, m_options.geodesics, m_chain);
 }
 
 /** Applies a fraction of m_step to m_trial. @return true if the error is lower there */

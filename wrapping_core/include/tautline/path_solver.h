@@ -55,6 +55,7 @@ private:
     Outcome iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool calcNewtonStep();
     bool calcDampedStep(const PathProblem& problem, double damping);
+    void shortenBrokenArcs(const PathProblem& problem, const PathPose& pose);
     bool tryStep(const PathProblem& problem, const PathPose& pose, double fraction, PathSolution& path);
     bool tryNewtonStep(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool tryDampedSteps(const PathProblem& problem, const PathPose& pose, PathSolution& path);
