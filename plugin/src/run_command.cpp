@@ -43,12 +43,16 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
     bar.clear();
     writeStorage(result.states, outFolder / "states.sto");
     writeStorage(result.paths, outFolder / "paths.sto");
+    writeStorage(result.clearances, outFolder / "clearances.sto");
     writeWhole(result.events, outFolder / "events.csv");
+    if (!result.starts.empty()) writeWhole(result.starts, outFolder / "start.csv");
     printRunTable(model, result, out);
     out << "results: " << (outFolder / "states.sto").string() << ", " << (outFolder / "paths.sto").string() << ", "
-        << (outFolder / "events.csv").string() << "\n";
+        << (outFolder / "clearances.sto").string() << ", " << (outFolder / "events.csv").string();
+    if (!result.starts.empty()) out << ", " << (outFolder / "start.csv").string();
+    out << "\n";
 
-    for (const MuscleSummary& summary : result.muscles)
+    for (const PathSummary& summary : result.summaries)
         if (summary.degradedSteps > 0 && !allowsDegraded) return 3;
     return 0;
 }
