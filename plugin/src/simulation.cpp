@@ -104,6 +104,7 @@ private:
         m_result.clearances.labels = {"time"};
         for (const auto& path : m_paths)
             forEachObstacle(path, [&](CableElementIndex e, bool isParametric) {
+                m_probes.emplace_back(path.cable, e);
                 std::vector<const char*> quantities{"|distance.", "|line_coordinate.", "|x.", "|y.", "|z."};
                 if (isParametric) quantities.insert(quantities.end(), {"|u.", "|v."});
                 for (const char* quantity : quantities)
@@ -138,9 +139,10 @@ private:
 
     void recordClearances(const State& state) {
         std::vector<double> row = {state.getTime()};
+        std::size_t probe = 0;
         for (const auto& path : m_paths)
-            forEachObstacle(path, [&](CableElementIndex e, bool isParametric) {
-                LineClearance clearance = models::calcClearance(path.cable, state, e);
+            forEachObstacle(path, [&](CableElementIndex, bool isParametric) {
+                LineClearance clearance = m_probes[probe++].calcClearance(state);
                 if (!clearance.found) {
                     clearance.distance = clearance.lineCoordinate = kNaN;
                     clearance.C = {Vec3::Constant(kNaN), Vec2::Constant(kNaN), 0};
@@ -155,6 +157,7 @@ private:
     const ModelSystem& m_model;
     std::vector<ModelSystem::PathView> m_paths;
     SimulationResult& m_result;
+    std::vector<models::ClearanceProbe> m_probes;  ///< one per obstacle, path by path
 };
 
 void recordIterations(const ModelSystem::PathView& path, const models::IteratedPath& iterated, std::string& csv) {
