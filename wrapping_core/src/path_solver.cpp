@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tautline/contact_switch.h"
 #include "tautline/error.h"
 #include "tautline/path_verification.h"
 
@@ -367,17 +368,10 @@ bool PathSolver::switchContacts(const PathProblem& problem, const PathPose& pose
             if (depth < deepest) deepest = depth, touch = e;
         }
     }
-    if (lift >= 0) {
-        liftContact(path.contacts[lift]);
-        return true;
-    }
-    if (touch >= 0) {
-        touchAtClearance(*problem.getElement(touch).surface,
-                         pose.X_GE[touch].R.transpose() * path.segments[path.contacts[touch].segment].e,
-                         path.contacts[touch]);
-        return true;
-    }
-    return false;
+    const int element = lift >= 0 ? lift : touch;
+    if (element < 0) return false;
+    switchContact(problem, pose, element, path);
+    return true;
 }
 
 void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) {
@@ -394,25 +388,6 @@ void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool i
         path.status = PathStatus::LeftDomain;
     else if (!verification.isMinimum())
         path.status = PathStatus::NotMinimum;
-}
-
-void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& contact) {
-    const LineClearance& clearance = contact.clearance;
-    const DarbouxFrame frame = surface.calcFrame(clearance.C, e_S);
-    // The chord that the line cuts from the osculating circle stands for the arc.
-    const double curvature = std::max(std::abs(frame.kappaN), 1e-3 * clearance.scale);
-    const double half = std::min(std::sqrt(2 * std::max(0.0, -clearance.distance) / curvature), 1 / curvature);
-    contact.isTouched = true;
-    contact.start.point = surface.calcDisplacedPoint(clearance.C, -half * frame.t);
-    contact.start.tangent = surface.calcFrame(contact.start.point, frame.t).t;
-    contact.start.length = 2 * half;
-}
-
-void liftContact(ObstacleContact& contact) {
-    contact.isTouched = false;
-    contact.clearance = LineClearance();
-    contact.clearance.keptC = contact.start.point;
-    contact.clearance.keptN = contact.geodesic.P.N;
 }
 
 PathSolution solvePath(const PathProblem& problem, const PathPose& pose, const PathSolverOptions& options) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tautline/path_solver.h"
+#include "tautline/contact_switch.h"
 
 namespace tautline {
 namespace {

@@ -6,10 +6,6 @@
 
 namespace tautline {
 
-/** d_tol of thesis Sec. 6.2, normalized by max(|kappa_n|, 1/size): the one constant for switching contact,
-verifying and flagging it. Tiny, since a penetration h at touchdown makes the rate jump with h. */
-inline constexpr double kContactTolerance = -1e-10;
-
 struct PathSolverOptions {
     double pathErrorTolerance = 1e-11;  ///< on max |eps|; what Newton leaves is its square
     int maxIterations = 40;             ///< Newton iterations for one contact set
@@ -75,13 +71,6 @@ private:
     PathSolution m_previous;
     PathPose m_liftedPose;
 };
-
-/** Puts a lifted obstacle in contact where its clearance was measured: the start of an arc for Newton's
-method, of length zero where the line just touches. @param e_S   direction of the line, in S */
-void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& contact);
-
-/** Takes a touched obstacle out of contact; its clearance is watched on the side where the arc began. */
-void liftContact(ObstacleContact& contact);
 
 /** One-off: a cold start from the problem's hints. */
 PathSolution solvePath(const PathProblem& problem, const PathPose& pose, const PathSolverOptions& options = {});
