@@ -38,15 +38,21 @@ public:
 
 private:
     enum class Outcome { Converged, Failed };
+    /** What says how often the path goes through the holes of its obstacles. */
+    enum class PassageRule { AsBefore, AsHinted };
 
     const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
     void turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
-                       int maxSweeps, PathSolution& path);
+                       int maxSweeps, PassageRule rule, PathSolution& path);
     bool leaveSaddle(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
-    bool findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    bool findColdPath(const PathProblem& problem, const PathPose& pose, const PathSolution* previous,
+    bool findPath(const PathProblem& problem, const PathPose& pose, PassageRule rule, PathSolution& path);
+    bool findColdPath(const PathProblem& problem, const PathPose& pose, const StartGuides& guides, PassageRule rule,
                       PathSolution& path);
+    bool findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides, PathSolution& path);
+    bool hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule,
+                          const PathSolution& path) const;
+    void updatePassages(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     Outcome iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool calcNewtonStep();
@@ -57,7 +63,8 @@ private:
     bool tryDampedSteps(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     double calcStepFraction(const PathProblem& problem) const;
     void applyStep(const PathProblem& problem, double fraction);
-    bool switchContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    int findWorstContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) const;
+    void switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     void updateClearances(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     void storeChain(PathSolution& path) const;
     void finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
