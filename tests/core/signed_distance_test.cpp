@@ -69,8 +69,8 @@ struct Tab7_1Row {
     double distance, d;
 };
 
-/** Newton's method of thesis Sec. 7.6, Eqn. 7.28 to 7.34 with dw = -J^-1 g (errata), from the surface point near `start`
-and D = A + s0 e. Curvatures and steps on the surface are the core's. */
+/** Newton's method of thesis Sec. 7.6, Eqn. 7.28 to 7.34 with dw = -J^-1 g (errata), from the surface point near
+`start` and D = A + s0 e. Curvatures and steps on the surface are the core's. */
 std::vector<Tab7_1Row> iterateTab7_1(const Ellipsoid& ellipsoid, const Vec3& A, const Vec3& B, const Vec3& start,
                                      double s0) {
     const Vec3 e = (B - A).normalized();
@@ -92,9 +92,9 @@ std::vector<Tab7_1Row> iterateTab7_1(const Ellipsoid& ellipsoid, const Vec3& A, 
     return rows;
 }
 
-/** Every printed digit of Tab. 7.1. Its starting points are printed to two decimals; D is at s_0 = 5, and C turned out to
-be the point to which Newton steps along the gradient (Eqn. 7.24) bring (2.5, 1.5, 1): found from the first two norms,
-confirmed by all the others. */
+/** Every printed digit of Tab. 7.1. Its starting points are printed to two decimals; D is at s_0 = 5, and C turned out
+to be the point to which Newton steps along the gradient (Eqn. 7.24) bring (2.5, 1.5, 1): found from the first two
+norms, confirmed by all the others. */
 TEST(SignedDistance, EllipsoidOfThesisTab7_1) {
     const Ellipsoid ellipsoid(Vec3(5, 3, 4));
     const Vec3 A(-10, 10, 0), B(10, 5, 3);

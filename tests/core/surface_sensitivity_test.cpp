@@ -65,7 +65,8 @@ public:
         PathPose moved = m_pose;
         for (int e = 0; e < kPoses; ++e) {
             const double rate = V[e].w.norm();
-            if (rate > 0) moved.X_GE[e].R = Eigen::AngleAxisd(h * rate, V[e].w / rate).toRotationMatrix() * m_pose.X_GE[e].R;
+            if (rate > 0)
+                moved.X_GE[e].R = Eigen::AngleAxisd(h * rate, V[e].w / rate).toRotationMatrix() * m_pose.X_GE[e].R;
             moved.X_GE[e].p += h * V[e].v;
         }
         return moved;
@@ -119,8 +120,8 @@ Eigen::VectorXd collect(const PathSolution& path, const PathPose& pose) {
 }
 
 /** Central difference of order six: with motions that move by the least radius of curvature per unit of time,
-truncation is of the order of h^6, rounding that of the geodesics over h, some 1e-10. On splines, whose third derivatives
-jump, a stencil across a knot leaves h times the jump. */
+truncation is of the order of h^6, rounding that of the geodesics over h, some 1e-10. On splines, whose third
+derivatives jump, a stencil across a knot leaves h times the jump. */
 template <class Function>
 Eigen::VectorXd calcDifference(const Function& f) {
     constexpr double h = 5e-4;
@@ -168,8 +169,8 @@ TEST_P(SurfaceSensitivity, FirstAndSecondDerivativesAreDifferencesOfSolvedPaths)
     EXPECT_LT(worstSecond, 1e-6);
 }
 
-/** Translations commute, so their second derivatives are symmetric; rotations of one body do not: with dL = -M . w for a
-turn w in ground, the derivative along a of that along b, less the other way round, is M . (a x b). */
+/** Translations commute, so their second derivatives are symmetric; rotations of one body do not: with dL = -M . w for
+a turn w in ground, the derivative along a of that along b, less the other way round, is M . (a x b). */
 TEST_P(SurfaceSensitivity, SecondDerivativesAreSymmetricButForTheCommutatorOfRotations) {
     Random random(102);
     TouchingPath scene;
@@ -201,7 +202,7 @@ TEST_P(SurfaceSensitivity, SecondDerivativesAreSymmetricButForTheCommutatorOfRot
 
 std::vector<SurfaceCase> makeWrappableCases() {
     std::vector<SurfaceCase> cases = makeSurfaceCases();
-    const auto isPlane = [](const SurfaceCase& c) { return c.name == "Plane"; };
+    const auto isPlane = [](const SurfaceCase& c) { return c.name == "Plane" || c.name == "ParametricPlane"; };
     cases.erase(std::remove_if(cases.begin(), cases.end(), isPlane), cases.end());
     return cases;
 }

@@ -51,8 +51,8 @@ public:
     double getSize() const override { return m_scaling.calcSize(); }
     std::string getDescription() const override { return m_scaling.describe(); }
     bool isConvex() const override { return m_scaling.m_base.isConvex(); }
-    bool isInDomain(const SurfacePoint& point) const override {
-        return m_scaling.m_base.isInDomain({m_scaling.m_inverse.cwiseProduct(point.p)});
+    double calcDomainMargin(const SurfacePoint& point) const override {
+        return m_scaling.m_base.calcDomainMargin({m_scaling.m_inverse.cwiseProduct(point.p)});
     }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_scaling.calcHeight(p_S, N_S); }
 
@@ -79,8 +79,8 @@ public:
     double getSize() const override { return m_scaling.calcSize(); }
     std::string getDescription() const override { return m_scaling.describe(); }
     bool isConvex() const override { return m_scaling.m_base.isConvex(); }
-    bool isInDomain(const SurfacePoint& point) const override {
-        return m_scaling.m_base.isInDomain({m_scaling.m_inverse.cwiseProduct(point.p), point.uv, point.chart});
+    double calcDomainMargin(const SurfacePoint& point) const override {
+        return m_scaling.m_base.calcDomainMargin({m_scaling.m_inverse.cwiseProduct(point.p), point.uv, point.chart});
     }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_scaling.calcHeight(p_S, N_S); }
 
