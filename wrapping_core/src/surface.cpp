@@ -82,10 +82,10 @@ void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const Ge
     points_S.resize(count);
     GeodesicStart from = start;
     from.length = start.length / (count - 1);
-    points_S[0] = surface.findSurfacePoint(start.point.p).p;
     Geodesic piece;
     for (int i = 1; i < count; ++i) {
         surface.shootGeodesic(from, options, piece);
+        if (i == 1) points_S[0] = piece.P.x;
         points_S[i] = piece.Q.x;
         from.point = piece.endPoint;
         from.tangent = piece.Q.t;
