@@ -229,23 +229,29 @@ void CableImpl::releaseContacts(State& state) const {
 void CableImpl::handleContactEvent(State& state) const {
     const CableMode& mode = m_state.getMode(state);
     if (mode.isDisabled || !mode.keepsContacts) return;
-    m_cables.getSystem().realize(state, Stage::Position);
+    m_cables.getSystem().realize(state, Stage::Velocity);
     const PathSolution before = getPath(state, "ContactEventHandler::handleEvent()");
     PathSolution after = before;
     CableWorkspace& workspace = m_state.updWorkspace(state);
     // Another obstacle's handler may have settled this one's contact already.
     if (!settleContacts(workspace.solver, m_problem, workspace.pose, after)) return;
+    calcVelocities(state, workspace.velocities);
     m_state.setStart(state, after);
     report(state, before, after);
 }
 
+/** @param state   whose pose and velocities are in its workspace */
 void CableImpl::report(const State& state, const PathSolution& before, const PathSolution& after) const {
+    const CableWorkspace& workspace = m_state.updWorkspace(state);
+    const Real rateBefore = calcLengthRate(before, workspace.pose, workspace.velocities);
+    const Real rateAfter = calcLengthRate(after, workspace.pose, workspace.velocities);
     for (CableElementIndex e(0); e < getNumElements(); ++e) {
         if (before.contacts[e].isTouched == after.contacts[e].isTouched) continue;
         ++m_counters.events;
         using Kind = ContactEvent::Kind;
         const Kind kind = after.contacts[e].isTouched ? Kind::Made : Kind::Lost;
-        if (m_listener) m_listener({state.getTime(), m_index, e, kind, before.length, after.length});
+        if (m_listener)
+            m_listener({state.getTime(), m_index, e, kind, before.length, after.length, rateBefore, rateAfter});
     }
 }
 

@@ -27,6 +27,7 @@ struct ContactEvent {
     CableElementIndex obstacle;
     Kind kind;
     SimTK::Real lengthBefore, lengthAfter;  ///< of the cable [m]
+    SimTK::Real rateBefore, rateAfter;      ///< its rate [m/s]
 };
 
 /** What a cable's solves have cost since construction or the last reset, over all States and threads. */
