@@ -80,7 +80,12 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     path.iterations = path.shots = 0;
     path.wasCold = false;
     switchOffEnclosing(problem, pose, path);
-    const bool isConverged = iterateNewton(problem, pose, path) == Outcome::Converged;
+    m_startLengths.resize(path.contacts.size());
+    for (std::size_t e = 0; e < path.contacts.size(); ++e) m_startLengths[e] = path.contacts[e].start.length;
+    bool isConverged = iterateNewton(problem, pose, path) == Outcome::Converged;
+    for (int repair = 0; isConverged && turnCuspsRound(problem, pose, path); ++repair)
+        isConverged = repair < kMaxCuspRepairs && iterateNewton(problem, pose, path) == Outcome::Converged;
+    m_startLengths.clear();
     updateClearances(problem, pose, path);
     updatePassages(problem, pose, path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
@@ -126,25 +131,40 @@ bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, Pass
     return false;
 }
 
-/** eps vanishes too where a line meets its arc with e = -t. The tangent point that is meant lies about as far on
-the other side of the line's other end: each such end of an arc is moved by twice the line's length. */
-void PathSolver::turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
-    for (std::size_t j = 0; j < path.segments.size(); ++j) {
-        const StraightSegment& line = path.segments[j];
-        const double shift = 2 * line.length;
+/** eps vanishes too where a line meets its arc with e = -t. Seen from a point at distance l along the line, the
+tangent point that is meant lies 2 atan(kappa l)/kappa back along the arc if that is a circle, or on by the rest of the
+circle: of the two the one that leaves the arc nearer to its length in m_startLengths, if that is known.
+@return true if there was such an end */
+bool PathSolver::turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
+    bool isAny = false;
+    const auto calcShift = [&](int e, const DarbouxFrame& end, double lineLength) {
+        const double curvature = std::abs(end.kappaN), length = path.contacts[e].start.length;
+        const double back = curvature > 0 ? 2 * std::atan(curvature * lineLength) / curvature : 2 * lineLength;
+        if (m_startLengths.empty() || !(curvature > 0)) return -back;
+        const double on = 2 * kPi / curvature - back, start = m_startLengths[e];
+        return std::abs(length - back - start) < std::abs(length + on - start) ? -back : on;
+    };
+    for (const StraightSegment& line : path.segments) {
         if (!problem.getElement(line.toElement).isPoint()) {
             ObstacleContact& contact = path.contacts[line.toElement];
-            if (line.e.dot(pose.X_GE[line.toElement].R * contact.geodesic.P.t) < 0) {
+            const DarbouxFrame& P = contact.geodesic.P;
+            if (line.e.dot(pose.X_GE[line.toElement].R * P.t) < 0) {
+                const double shift = calcShift(line.toElement, P, line.length);
                 const Surface& surface = *problem.getElement(line.toElement).surface;
-                contact.start =
-                    calcCorrectedStart(surface, contact.start, contact.geodesic.P, Vec4(shift, 0, 0, -shift));
+                contact.start = calcCorrectedStart(surface, contact.start, P, Vec4(-shift, 0, 0, shift));
+                isAny = true;
             }
         }
         if (!problem.getElement(line.fromElement).isPoint()) {
             ObstacleContact& contact = path.contacts[line.fromElement];
-            if (line.e.dot(pose.X_GE[line.fromElement].R * contact.geodesic.Q.t) < 0) contact.start.length -= shift;
+            const DarbouxFrame& Q = contact.geodesic.Q;
+            if (line.e.dot(pose.X_GE[line.fromElement].R * Q.t) < 0) {
+                contact.start.length += calcShift(line.fromElement, Q, line.length);
+                isAny = true;
+            }
         }
     }
+    return isAny;
 }
 
 /** Lets a string fall taut along the guides, ever finer, until Newton's method leads on from it to a

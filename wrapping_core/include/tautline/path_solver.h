@@ -42,7 +42,7 @@ private:
     enum class PassageRule { AsBefore, AsHinted };
 
     const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
-    void turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
+    bool turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
                        int maxSweeps, PassageRule rule, PathSolution& path);
     bool leaveSaddle(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
@@ -75,6 +75,7 @@ private:
     BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
     BandedSolver m_normal{2 * kPathBandwidth, 2 * kPathBandwidth};  ///< J^T J + damping, only when Newton fails
     std::vector<double> m_eps, m_trialEps, m_step;
+    std::vector<double> m_startLengths;  ///< of the arcs by element, while contacts are kept
     PathSolution m_previous;
     PathPose m_liftedPose;
 };

@@ -15,8 +15,8 @@ namespace tautline::models {
  * A model as a Simbody system that can be simulated: bodies and joints, gravity, and for each muscle a
  * cable over its wrap objects with a Hill-type muscle that pulls at it.
  *
- * @throws ModelError as buildMultibody() does, and for muscle points that a cable cannot hold yet
- * (moving and conditional ones), naming the point and its line.
+ * @throws ModelError as buildMultibody() does, and for a path whose first or last point is conditional,
+ * naming the point and its line.
  */
 class ModelSystem {
 public:
