@@ -181,6 +181,12 @@ void Cable::fixContacts(State& state) const {
     get().keepContacts(state, get().calcSettledPath(state));
 }
 
+void Cable::continueFrom(State& state, const PathSolution& path) const {
+    require(static_cast<int>(path.contacts.size()) == getNumElements(), "cable '", getName(), "': a path with ",
+            path.contacts.size(), " contacts for ", getNumElements(), " elements");
+    get().keepContacts(state, path);
+}
+
 void Cable::releaseContacts(State& state) const {
     get().releaseContacts(state);
 }

@@ -136,6 +136,11 @@ public:
     time-stepping study does this by itself when it initializes. */
     void fixContacts(SimTK::State& state) const;
 
+    /** Fixes the contact set of a given path, from which the next solve continues: a study may so start from a
+    path of one's own, such as one iterated from geodesics chosen by hand.
+    @param path   one contact per element; InvalidInput otherwise */
+    void continueFrom(SimTK::State& state, const PathSolution& path) const;
+
     /** Lets every realize(Position) find the contact set anew. Call it after moving a State that comes from
     an integrator to another pose. */
     void releaseContacts(SimTK::State& state) const;
