@@ -28,9 +28,12 @@ public:
         add(forms, std::make_shared<Sphere>(0.3), std::make_shared<ParametricSphere>(0.3));
         add(forms, std::make_shared<EllipticCylinder>(0.35, 0.2),
             std::make_shared<ParametricEllipticCylinder>(0.35, 0.2));
+        add(forms, std::make_shared<Paraboloid>(0.5, 0.7), std::make_shared<ParametricParaboloid>(0.5, 0.7));
+        add(forms, std::make_shared<Capsule>(0.25, 0.3, 0.2), std::make_shared<ParametricCapsule>(0.25, 0.3, 0.2));
+        add(forms, std::make_shared<Cone>(0.3, 0.3), std::make_shared<ParametricCone>(0.3, 0.3));
         m_problem.addPoint("origin");
         for (std::size_t i = 0; i < m_surfaces.size(); ++i)
-            m_problem.addObstacle("obstacle " + std::to_string(i), m_surfaces[i], Vec3(0, getSide(i) * 0.5, 0.02));
+            m_problem.addObstacle("obstacle " + std::to_string(i), m_surfaces[i], calcHint(i));
         m_problem.addPoint("insertion");
     }
 
@@ -45,6 +48,8 @@ public:
             const double angle = 0.1 * std::sin(t + i), rate = 0.1 * std::cos(t + i);
             pose.X_GE[i + 1].R = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
             pose.X_GE[i + 1].p = Vec3(1.2 * (i + 1), 0.05 * std::cos(2 * t + i), 0.02 * i);
+            const Pose placing = calcPlacing(i);
+            pose.X_GE[i + 1].R *= placing.R, pose.X_GE[i + 1].p += placing.p;
             V_GE[i + 1].w = rate * Vec3::UnitZ();
             V_GE[i + 1].v = Vec3(0, -0.1 * std::sin(2 * t + i), 0);
         }
@@ -53,7 +58,18 @@ public:
     }
 
 private:
+    static constexpr std::size_t kParaboloid = 6, kCapsule = 7, kCone = 8;
     static double getSide(std::size_t i) { return i % 2 ? -1 : 1; }
+    static Vec3 calcHint(std::size_t i) {
+        if (i == kParaboloid) return {0, 0, -0.2};  // beyond the vertex
+        return {0, getSide(i) * 0.5, i == kCapsule ? 0.17 : i == kCone ? 0.9 : 0.02};
+    }
+    /** The paraboloid's vertex looks up, the string crosses the capsule where its cap begins, the cone far from its
+     * apex. */
+    static Pose calcPlacing(std::size_t i) {
+        if (i == kParaboloid) return {Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()).toRotationMatrix(), Vec3(0, 0.3, 0)};
+        return Pose(Vec3(0, 0, i == kCapsule ? -0.1 : i == kCone ? -0.9 : 0));
+    }
     void add(Forms forms, std::shared_ptr<const Surface> implicitForm, std::shared_ptr<const Surface> parametricForm) {
         const bool isImplicit = forms == Forms::Implicit || (forms == Forms::Mixed && m_surfaces.size() % 2);
         m_surfaces.push_back(isImplicit ? implicitForm : parametricForm);

@@ -16,6 +16,13 @@ TEST(SignedDistance, ParaboloidOfThesisTab6_1) {
     const Vec3 A(-10, 10, -5), B(10, 5, -2), e = (B - A).normalized();
     const double norms[] = {11.347973868163587, 0.08996027934027645, 0.0020755024625711, 1.7055e-7, 1.3e-15};
     const double tolerances[] = {1e-13, 1e-14, 1e-14, 1e-11, 1e-14};  // digits printed
+    // s_0, u_C, v_C and the column d, which is the distance of C and D: some are printed rounded, others cut off (the
+    // last u_C is 2.56305828, the second v_C 2.622879), so to one unit of the last place.
+    const double rows[5][4] = {{5.0000, 1.0000, 2.0000, 10.4813},
+                               {14.5843, 2.3944, 2.6228, 6.1210},
+                               {14.7876, 2.5635, 2.5943, 6.1193},
+                               {14.7875, 2.5631, 2.5938, 6.1193},
+                               {14.7875, 2.5630, 2.5938, 6.1193}};
     Vec3 w(5, 1, 2);
     double d = kNaN;
     for (int k = 0; k < 5; ++k) {
@@ -24,6 +31,8 @@ TEST(SignedDistance, ParaboloidOfThesisTab6_1) {
         const Vec3 r = A + w[0] * e - Vec3(u, v, u * u / 14 + v * v / 6);
         const Vec3 g(e.dot(r), xu.dot(r), xv.dot(r));
         EXPECT_NEAR(g.norm(), norms[k], tolerances[k]) << "row " << k + 1;
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(w[i], rows[k][i], 1e-4) << "row " << k + 1;
+        EXPECT_NEAR(r.norm(), rows[k][3], 1e-4) << "row " << k + 1;
         d = r.dot(xv.cross(xu).normalized());  // outward on the convex side, below
         Mat3 J;
         J << 1, -e.dot(xu), -e.dot(xv), e.dot(xu), -xu.dot(xu) + r.dot(xuu), -xu.dot(xv), e.dot(xv), -xu.dot(xv),
@@ -53,21 +62,26 @@ TEST(SignedDistance, ParaboloidOfThesisTab6_1) {
     EXPECT_LT((clearance.C.p.head<2>() - w.tail<2>()).norm(), 1e-9);
 }
 
-/** Newton's method of thesis Sec. 7.6, Eqn. 7.28 to 7.34 with dw = -J^-1 g (errata), from the rounded starting
-points of Tab. 7.1; expected numbers: errata. Curvatures and steps on the surface are the core's. */
-TEST(SignedDistance, EllipsoidOfThesisTab7_1) {
-    const Ellipsoid ellipsoid(Vec3(5, 3, 4));
-    const Vec3 A(-10, 10, 0), B(10, 5, 3), e = (B - A).normalized();
-    const double norms[] = {13.97, 0.3653, 0.009780, 1.118e-5, 1.5e-11, 3e-16};
-    const double tolerances[] = {5e-3, 5e-5, 5e-7, 5e-9, 5e-13, 1e-14};  // digits printed; rounding in the last
-    SurfacePoint C = ellipsoid.findSurfacePoint(Vec3(2.95, 2.22, 1.28));
-    double s0 = (Vec3(-5.20, 8.80, 0.72) - A).dot(e), d = kNaN;
+/** What Tab. 7.1 prints in a row, and the signed distance. */
+struct Tab7_1Row {
+    double norm;
+    Vec3 C, D;
+    double distance, d;
+};
+
+/** Newton's method of thesis Sec. 7.6, Eqn. 7.28 to 7.34 with dw = -J^-1 g (errata), from the surface point near
+`start` and D = A + s0 e. Curvatures and steps on the surface are the core's. */
+std::vector<Tab7_1Row> iterateTab7_1(const Ellipsoid& ellipsoid, const Vec3& A, const Vec3& B, const Vec3& start,
+                                     double s0) {
+    const Vec3 e = (B - A).normalized();
+    SurfacePoint C = ellipsoid.findSurfacePoint(start);
+    std::vector<Tab7_1Row> rows;
     for (int k = 0; k < 6; ++k) {
         const DarbouxFrame frame = ellipsoid.calcFrame(C, e);
-        const Vec3 e1 = frame.t, e2 = -frame.B, r = A + s0 * e - C.p;  // e1 x e2 = N
+        const Vec3 e1 = frame.t, e2 = -frame.B, D = A + s0 * e, r = D - C.p;  // e1 x e2 = N
         const Vec3 g(e.dot(r), e1.dot(r), e2.dot(r));
-        EXPECT_NEAR(g.norm(), norms[k], tolerances[k]) << "row " << k + 1;
-        d = frame.N.dot(r);
+        const double d = frame.N.dot(r);
+        rows.push_back({g.norm(), C.p, D, r.norm(), d});
         Mat3 J;
         J << 1, -e.dot(e1), -e.dot(e2), e.dot(e1), frame.kappaN * d - 1, frame.tauG * d, e.dot(e2), frame.tauG * d,
             frame.kappaB * d - 1;
@@ -75,11 +89,47 @@ TEST(SignedDistance, EllipsoidOfThesisTab7_1) {
         s0 += step[0];
         C = ellipsoid.calcDisplacedPoint(C, step[1] * e1 + step[2] * e2);
     }
-    EXPECT_NEAR(d, 4.31960858834678, 5e-14);
+    return rows;
+}
+
+/** Every printed digit of Tab. 7.1. Its starting points are printed to two decimals; D is at s_0 = 5, and C turned out
+to be the point to which Newton steps along the gradient (Eqn. 7.24) bring (2.5, 1.5, 1): found from the first two
+norms, confirmed by all the others. */
+TEST(SignedDistance, EllipsoidOfThesisTab7_1) {
+    const Ellipsoid ellipsoid(Vec3(5, 3, 4));
+    const Vec3 A(-10, 10, 0), B(10, 5, 3);
+    const struct {
+        Vec3 C, D;
+        double norm, distance;
+    } printed[] = {{{2.95, 2.22, 1.28}, {-5.20, 8.80, 0.72}, 13.980143866214055, 10.49},
+                   {{1.00, 2.86, 0.91}, {1.87, 7.03, 1.78}, 0.367150387900821, 4.35},
+                   {{1.67, 2.72, 1.02}, {2.57, 6.86, 1.89}, 0.009824863697499, 4.32},
+                   {{1.65, 2.73, 1.02}, {2.56, 6.86, 1.88}, 0.000011270733715, 4.32},
+                   {{1.65, 2.73, 1.02}, {2.56, 6.86, 1.88}, 0.000000000014995, 4.32},
+                   {{1.65, 2.73, 1.02}, {2.56, 6.86, 1.88}, 0.0000000000000000, 4.32}};
+    const std::vector<Tab7_1Row> rows = iterateTab7_1(ellipsoid, A, B, Vec3(2.5, 1.5, 1), 5);
+    for (int k = 0; k < 6; ++k) {
+        SCOPED_TRACE("row " + std::to_string(k + 1));
+        EXPECT_NEAR(rows[k].norm, printed[k].norm, k < 2 ? 2e-14 : 5e-15);  // rounding of A, B, C of order ten
+        EXPECT_LT((rows[k].C - printed[k].C).lpNorm<Eigen::Infinity>(), 5.1e-3);
+        EXPECT_LT((rows[k].D - printed[k].D).lpNorm<Eigen::Infinity>(), 5.1e-3);
+        EXPECT_NEAR(rows[k].distance, printed[k].distance, 5.1e-3);
+    }
+    EXPECT_NEAR(rows.back().d, 4.31960858834678, 5e-14);
     LineClearance clearance;
     findSegmentClearance(ellipsoid, Pose(), A, B, clearance);
-    EXPECT_NEAR(clearance.distance, d, 1e-12);
-    EXPECT_NEAR(clearance.lineCoordinate, s0, 1e-9);
+    EXPECT_NEAR(clearance.distance, rows.back().d, 1e-12);
+    EXPECT_LT((A + clearance.lineCoordinate * (B - A).normalized() - rows.back().D).norm(), 1e-9);
+}
+
+/** The same from the starting points as they are printed; expected norms: errata. */
+TEST(SignedDistance, EllipsoidOfThesisTab7_1FromRoundedStart) {
+    const Vec3 A(-10, 10, 0), B(10, 5, 3);
+    const double norms[] = {13.97, 0.3653, 0.009780, 1.118e-5, 1.5e-11, 3e-16};
+    const double tolerances[] = {5e-3, 5e-5, 5e-7, 5e-9, 5e-13, 1e-14};  // digits printed; rounding in the last
+    const double s0 = (Vec3(-5.20, 8.80, 0.72) - A).dot((B - A).normalized());
+    const std::vector<Tab7_1Row> rows = iterateTab7_1(Ellipsoid(Vec3(5, 3, 4)), A, B, Vec3(2.95, 2.22, 1.28), s0);
+    for (int k = 0; k < 6; ++k) EXPECT_NEAR(rows[k].norm, norms[k], tolerances[k]) << "row " << k + 1;
 }
 
 TEST(SignedDistance, ClosedForms) {

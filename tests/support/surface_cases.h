@@ -45,6 +45,7 @@ struct TwinCase {
     std::shared_ptr<const Surface> implicitForm, parametricForm;
     double extent, length;
     std::vector<Vec3> specialPoints;
+    Vec3 centre = Vec3::Zero();
 };
 
 /** What GoogleTest and ctest call a case. */
@@ -106,6 +107,24 @@ inline std::vector<TwinCase> makeTwinCases() {
     cases.push_back({"EllipticCylinder", std::make_shared<EllipticCylinder>(0.3, 0.1),
                      std::make_shared<ParametricEllipticCylinder>(0.3, 0.1), 0.4, 0.5,
                      makeAxisPoints(Vec3(0.3, 0.1, 5))});
+    const auto capsule = std::make_shared<Capsule>(0.1, 0.3, 0.12);
+    const double joint = 0.5 * capsule->getLength();
+    cases.push_back(
+        {"Capsule",
+         capsule,
+         std::make_shared<ParametricCapsule>(0.1, 0.3, 0.12),
+         0.3,
+         0.3,
+         {Vec3(0, 0, 0.27), Vec3(0, 0, -0.27), Vec3(0.1, 0, joint), Vec3(0.1, 0, joint + 1e-4), Vec3(0, 0.1, 0)}});
+    cases.push_back(
+        {"Plane", std::make_shared<Plane>(0.2), std::make_shared<ParametricPlane>(0.2), 1, 2, {Vec3::Zero()}});
+    cases.push_back({"Cone",
+                     std::make_shared<Cone>(0.4, 0.3),
+                     std::make_shared<ParametricCone>(0.4, 0.3),
+                     0.4,
+                     1,
+                     {},
+                     Vec3(0, 0, 1)});
     cases.push_back(
         {"ScaledTorus",
          std::make_shared<ScaledImplicitSurface<Torus>>(Torus(0.3, 0.1), Vec3(1.2, 0.9, 1.5)),
@@ -162,21 +181,10 @@ inline ImplicitFunctionSurface makePear() {
 inline std::vector<SurfaceCase> makeSurfaceCases() {
     std::vector<SurfaceCase> cases;
     for (const TwinCase& twin : makeTwinCases()) {
-        cases.push_back({twin.name, twin.implicitForm, twin.specialPoints, twin.extent, Vec3::Zero(), twin.length});
-        cases.push_back({"Parametric" + twin.name, twin.parametricForm, twin.specialPoints, twin.extent, Vec3::Zero(),
-                         twin.length});
+        cases.push_back({twin.name, twin.implicitForm, twin.specialPoints, twin.extent, twin.centre, twin.length});
+        cases.push_back(
+            {"Parametric" + twin.name, twin.parametricForm, twin.specialPoints, twin.extent, twin.centre, twin.length});
     }
-    cases.push_back({"Plane", std::make_shared<Plane>(0.2), {Vec3::Zero()}, 1, Vec3::Zero(), 2});
-    cases.push_back({"Cone", std::make_shared<Cone>(0.4, 0.3), {}, 0.4, Vec3(0, 0, 1), 1});
-    const auto capsule = std::make_shared<Capsule>(0.1, 0.3, 0.12);
-    const double joint = 0.5 * capsule->getLength();
-    cases.push_back(
-        {"Capsule",
-         capsule,
-         {Vec3(0, 0, 0.27), Vec3(0, 0, -0.27), Vec3(0.1, 0, joint), Vec3(0.1, 0, joint + 1e-4), Vec3(0, 0.1, 0)},
-         0.3,
-         Vec3::Zero(),
-         0.3});
     cases.push_back({"OffsetEllipsoid",
                      std::make_shared<OffsetSurface>(std::make_shared<Ellipsoid>(Vec3(0.05, 0.03, 0.08)), 0.01),
                      {Vec3(0.06, 0, 0), Vec3(0, 0.04, 0), Vec3(0, 0, 0.09)},

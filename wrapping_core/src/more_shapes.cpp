@@ -92,10 +92,10 @@ std::string Cone::getDescription() const {
     return describeShape("cone(half angle=", m_halfAngle, ", radius=", m_radius, ", edge radius=", m_edgeRadius, ")");
 }
 
-bool Cone::isInDomain(const SurfacePoint& point) const {
+double Cone::calcDomainMargin(const SurfacePoint& point) const {
     constexpr double kApex = 1e-6;  // in radii: closer, curvature is beyond use
-    const double rho = std::hypot(point.p.x(), point.p.y());
-    return point.p.z() > 0 && rho >= std::max(m_edgeRadius, kApex * m_radius);
+    const double margin = std::hypot(point.p.x(), point.p.y()) - std::max(m_edgeRadius, kApex * m_radius);
+    return point.p.z() > 0 ? margin : std::min(margin, point.p.z() - kApex * m_radius);
 }
 
 /** The nearest point; beside the apex where that is nearest. */
@@ -152,6 +152,15 @@ Capsule::Capsule(double radius, double length, double capHeight)
     requireLength(radius, "capsule: radius");
     require(std::isfinite(length) && length >= 0, "capsule: length must be finite and not negative, but is ", length);
     requireLength(capHeight, "capsule: cap height");
+}
+
+SurfacePoint Capsule::findSurfacePoint(const Vec3& p_S) const {
+    const Vec3 onAxis(0, 0, std::clamp(p_S.z(), -0.5 * m_length, 0.5 * m_length)), q = p_S - onAxis;
+    const double b = q.head<2>().squaredNorm() / (m_radius * m_radius), w = q.z() / m_capHeight, a = w * w * w * w;
+    if (!(b + a > 4)) return ImplicitShape::findSurfacePoint(p_S);
+    // onAxis + k q with a k^4 + b k^2 = 1, then the foot of a point that lies on the surface but for rounding
+    const double k = std::sqrt(2 / (b + std::sqrt(b * b + 4 * a)));
+    return ImplicitShape::findSurfacePoint(onAxis + k * q);
 }
 
 std::string Capsule::getDescription() const {

@@ -1,19 +1,116 @@
 #include "tautline/offset_surface.h"
 
+#include <algorithm>
+
 #include "shape_checks.h"
 
 namespace tautline {
 namespace {
 
-/** Foot of p on the base: Newton's method for (p - C) normal to the base, from the base's own guess.
+/** What a shape operator W of the base becomes at the height h: W/(1 + h W), in the base's basis {t, B}. */
+struct RaisedShape {
+    double determinant;           ///< of 1 + h W
+    double kappaN, tauG, kappaB;  ///< of the offset surface
+
+    RaisedShape(const DarbouxFrame& base, double h) {
+        const double K = base.calcGaussianCurvature();
+        determinant = 1 - h * (base.kappaN + base.kappaB) + h * h * K;
+        kappaN = (base.kappaN - h * K) / determinant;
+        tauG = base.tauG / determinant;
+        kappaB = (base.kappaB - h * K) / determinant;
+    }
+};
+
+DarbouxFrame raiseFrame(const DarbouxFrame& base, double h) {
+    const RaisedShape shape(base, h);
+    return {base.x + h * base.N, base.t, base.N, base.B, shape.kappaN, shape.tauG, shape.kappaB};
+}
+
+/** What the foot moves by when the point above it moves by `d`: (1 + h W)^-1 d. */
+Vec3 calcFootDisplacement(const DarbouxFrame& base, double h, const Vec3& d) {
+    const double dt = d.dot(base.t), dB = d.dot(base.B);
+    const double M11 = 1 - h * base.kappaN, M12 = h * base.tauG, M22 = 1 - h * base.kappaB;
+    const double determinant = M11 * M22 - M12 * M12;
+    return ((M22 * dt - M12 * dB) * base.t + (M11 * dB - M12 * dt) * base.B) / determinant;
+}
+
+/** Geodesic and Jacobi equations of the offset surface in terms of the foot on the base, t' = kappa_n N and
+C' = (1 + h W)^-1 t. State: C (3), u, v, t (3), a, a', r, r'; of C and (u, v) only the one that the base goes by moves.
+*/
+struct OffsetGeodesicEquations {
+    static constexpr int n = 12;
+    using State = Eigen::Matrix<double, n, 1>;
+
+    const Surface& base;
+    double h, size;
+    bool hasCoordinates;
+    double rSign;
+    SurfacePoint foot;   ///< at the last projected state
+    DarbouxFrame frame;  ///< of the offset surface there
+    Vec2 lengths{1, 1};  ///< |xu|, |xv| there: make errors of u, v lengths
+    double maxKappaN = -kInfinity;
+    bool hasConjugatePoint = false;
+
+    SurfacePoint calcFoot(const State& y) const {
+        return hasCoordinates ? SurfacePoint{Vec3::Constant(kNaN), y.segment<2>(3), foot.chart}
+                              : SurfacePoint{y.head<3>()};
+    }
+    void calcDerivative(const State& y, State& slope) const {
+        const SurfacePoint C = calcFoot(y);
+        const DarbouxFrame below = base.calcFrame(C, y.segment<3>(5));
+        const RaisedShape shape(below, h);
+        const Vec3 velocity = ((1 - h * below.kappaB) * below.t - h * below.tauG * below.B) / shape.determinant;
+        Vec2 rates = Vec2::Zero();
+        if (hasCoordinates) base.calcCoordinateRates(C, velocity, rates);
+        const double K = below.calcGaussianCurvature() / shape.determinant;
+        if (hasCoordinates)
+            slope.head<3>().setZero();
+        else
+            slope.head<3>() = velocity;
+        slope.segment<2>(3) = rates;
+        slope.segment<3>(5) = shape.kappaN * below.N;
+        slope.tail<4>() << y[9], -K * y[8], y[11], -K * y[10];
+    }
+    void calcErrorWeights(const State& y, State& weights) const {
+        weights << Vec3::Constant(1 / size), lengths / size, Vec3::Ones(), 1, size, 1 / size, 1;
+        for (int i = 8; i < n; ++i) weights[i] /= std::max(1.0, weights[i] * std::abs(y[i]));
+    }
+    /** Back to the base, in the chart that suits, and to unit speed. */
+    void project(State& y) {
+        const SurfacePoint C = calcFoot(y);
+        foot = hasCoordinates ? base.calcDisplacedPoint(C, Vec3::Zero()) : base.findSurfacePoint(C.p);
+        place(base.calcFrame(foot, y.segment<3>(5)), y);
+    }
+    /** Sets all but the Jacobi fields from the foot and the base's frame there. */
+    void place(const DarbouxFrame& below, State& y) {
+        frame = raiseFrame(below, h);
+        y.segment<3>(5) = frame.t;
+        if (!hasCoordinates) {
+            y.head<5>() << foot.p, 0, 0;
+            return;
+        }
+        y.head<5>() << Vec3::Zero(), foot.uv;
+        Eigen::Matrix2d rates;  // columns: (u', v') along t and B; the inverse has |xu|, |xv| in its columns
+        for (int i = 0; i < 2; ++i) {
+            Vec2 rate;
+            base.calcCoordinateRates(foot, i == 0 ? below.t : below.B, rate);
+            rates.col(i) = rate;
+        }
+        const double determinant = std::abs(rates(0, 0) * rates(1, 1) - rates(0, 1) * rates(1, 0));
+        lengths = Vec2(rates.row(1).norm(), rates.row(0).norm()) / determinant;
+    }
+    void watch(const State& y) {
+        maxKappaN = std::max(maxKappaN, frame.kappaN);
+        if (y[10] * rSign <= 0) hasConjugatePoint = true;
+    }
+};
+
+/** Foot of p on the base: Newton's method for (p - C) normal to the base, from a point C of the base.
 @return false if none was found: p lies beyond the centres of curvature */
-bool findFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFrame& frame) {
+bool refineFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFrame& frame) {
     constexpr int kMaxIterations = 30;
     const double size = base.getSize(), enough = 1e-8 * size;  // after such a step its square is left
-    C = base.findSurfacePoint(p);
-    Vec3 N;
-    base.calcHeight(C.p, N);
-    Vec3 direction = N.unitOrthogonal();  // any will do, if it is not along N
+    Vec3 direction = Vec3::UnitX();  // any will do
     for (int i = 0; i < kMaxIterations; ++i) {
         frame = base.calcFrame(C, direction);
         direction = frame.t;
@@ -36,6 +133,12 @@ bool findFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFrame&
     return false;
 }
 
+/** From the base's own guess. */
+bool findFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFrame& frame) {
+    C = base.findSurfacePoint(p);
+    return refineFoot(base, p, C, frame);
+}
+
 }  // namespace
 
 OffsetSurface::OffsetSurface(std::shared_ptr<const Surface> base, double thickness)
@@ -43,6 +146,9 @@ OffsetSurface::OffsetSurface(std::shared_ptr<const Surface> base, double thickne
     require(m_base != nullptr, "offset surface: needs a base surface");
     require(std::isfinite(thickness) && thickness >= 0,
             "offset surface: thickness must be finite and not negative, but is ", thickness);
+    Vec2 rates;
+    m_hasCoordinates =
+        m_base->calcCoordinateRates(m_base->findSurfacePoint(Vec3::Constant(m_base->getSize())), Vec3::Zero(), rates);
 }
 
 std::string OffsetSurface::getDescription() const {
@@ -78,7 +184,66 @@ SurfacePoint OffsetSurface::findSurfacePoint(const Vec3& p_S) const {
     SurfacePoint C;
     DarbouxFrame frame;
     findFoot(*m_base, p_S, C, frame);
-    return {C.p + m_thickness * frame.N};
+    return {C.p + m_thickness * frame.N, C.uv, C.chart};
+}
+
+bool OffsetSurface::findFootOfPoint(const SurfacePoint& point, const Vec3& direction, SurfacePoint& C,
+                                    DarbouxFrame& frame) const {
+    if (m_hasCoordinates) {  // are they those of the foot?
+        C = {Vec3::Constant(kNaN), point.uv, point.chart};
+        frame = m_base->calcFrame(C, direction);
+        C.p = frame.x;
+        const Vec3 raised = frame.x + m_thickness * frame.N;
+        if (!point.p.allFinite() || (raised - point.p).norm() <= 1e-12 * (getSize() + raised.norm())) return true;
+        C = m_base->findSurfacePoint(point.p);
+    } else {
+        Vec3 N;
+        const double height = m_base->calcHeight(point.p, N);
+        // Near this surface the foot is about h below; elsewhere the base knows better.
+        C = m_base->findSurfacePoint(
+            std::abs(height - m_thickness) < 0.5 * m_thickness ? Vec3(point.p - m_thickness * N) : point.p);
+    }
+    if (!refineFoot(*m_base, point.p, C, frame)) return false;
+    frame = m_base->calcFrame(C, direction);
+    return true;
+}
+
+SurfacePoint OffsetSurface::calcDisplacedPoint(const SurfacePoint& start, const Vec3& displacement_S) const {
+    SurfacePoint C;
+    DarbouxFrame frame;
+    findFootOfPoint(start, displacement_S, C, frame);
+    C = m_base->calcDisplacedPoint(C, calcFootDisplacement(frame, m_thickness, displacement_S));
+    return {C.p + m_thickness * m_base->calcFrame(C, frame.t).N, C.uv, C.chart};
+}
+
+DarbouxFrame OffsetSurface::calcFrame(const SurfacePoint& point, const Vec3& direction_S) const {
+    SurfacePoint C;
+    DarbouxFrame frame;
+    findFootOfPoint(point, direction_S, C, frame);
+    return raiseFrame(frame, m_thickness);
+}
+
+void OffsetSurface::shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options,
+                                  Geodesic& geodesic) const {
+    SurfacePoint C;
+    DarbouxFrame below;
+    findFootOfPoint(start.point, start.tangent, C, below);
+    OffsetGeodesicEquations equations{*m_base, m_thickness, getSize(), m_hasCoordinates, start.length < 0 ? -1.0 : 1.0,
+                                      C,       {}};
+    OffsetGeodesicEquations::State y;
+    y.tail<4>() << 1, 0, 0, 1;
+    equations.place(below, y);
+    const DarbouxFrame& P = geodesic.P = equations.frame;
+    equations.maxKappaN = P.kappaN;
+    const double curvature = std::max({std::abs(P.kappaN), std::abs(P.kappaB), std::abs(P.tauG)});
+    geodesic.steps = integrateGeodesic(equations, y, start.length, calcFirstStep(curvature, options.accuracy), options);
+    geodesic.converged = geodesic.steps >= 0;
+    geodesic.Q = equations.frame;
+    geodesic.endPoint = {geodesic.Q.x, equations.foot.uv, equations.foot.chart};
+    geodesic.length = start.length;
+    geodesic.a = y[8], geodesic.aDot = y[9], geodesic.r = y[10], geodesic.rDot = y[11];
+    geodesic.hasConjugatePoint = equations.hasConjugatePoint;
+    geodesic.maxKappaN = equations.maxKappaN;
 }
 
 /** Lowest over the base is near enough to the lowest over the offset to start from, and refined from there. */
@@ -94,11 +259,11 @@ double OffsetSurface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double l
     return s;
 }
 
-/** Where its foot is. */
-bool OffsetSurface::isInDomain(const SurfacePoint& point) const {
+/** That of its foot. */
+double OffsetSurface::calcDomainMargin(const SurfacePoint& point) const {
     SurfacePoint C;
     DarbouxFrame frame;
-    return findFoot(*m_base, point.p, C, frame) && m_base->isInDomain(C);
+    return findFootOfPoint(point, Vec3::UnitX(), C, frame) ? m_base->calcDomainMargin(C) : -kInfinity;
 }
 
 }  // namespace tautline

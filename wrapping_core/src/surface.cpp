@@ -64,16 +64,28 @@ double Surface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length)
     return 0.5 * (a + b);
 }
 
+int Surface::countHoleCrossings(const Vec3&, const Vec3&) const {
+    return 0;
+}
+
+int countDiscCrossings(double radius, const Vec3& A_S, const Vec3& B_S) {
+    const bool isAbove = A_S.z() > 0;
+    if (isAbove == (B_S.z() > 0)) return 0;
+    const Vec3 crossing = A_S + A_S.z() / (A_S.z() - B_S.z()) * (B_S - A_S);
+    if (!(crossing.head<2>().norm() < radius)) return 0;
+    return isAbove ? -1 : 1;
+}
+
 void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const GeodesicOptions& options, int count,
                     std::vector<Vec3>& points_S) {
     require(count >= 2, "sampleGeodesic: needs at least 2 points, got ", count);
     points_S.resize(count);
     GeodesicStart from = start;
     from.length = start.length / (count - 1);
-    points_S[0] = surface.findSurfacePoint(start.point.p).p;
     Geodesic piece;
     for (int i = 1; i < count; ++i) {
         surface.shootGeodesic(from, options, piece);
+        if (i == 1) points_S[0] = piece.P.x;
         points_S[i] = piece.Q.x;
         from.point = piece.endPoint;
         from.tangent = piece.Q.t;

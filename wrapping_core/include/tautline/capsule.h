@@ -1,5 +1,6 @@
 #pragma once
 #include "tautline/implicit_surface.h"
+#include "tautline/parametric_twin.h"
 
 namespace tautline {
 
@@ -27,6 +28,10 @@ public:
     std::string getDescription() const override;
     bool isConvex() const override { return true; }
 
+    /** From farther away than the size first straight towards the axis: Newton's method on the fourth power would
+    take long. */
+    SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
+
     /** f = r/2 (rho^2/r^2 + (w/c)^4 - 1), convex. */
     ImplicitValue calcImplicit(const Vec3& p) const {
         const double w = std::max(std::abs(p.z()) - 0.5 * m_length, 0.0) / m_capHeight;
@@ -39,5 +44,22 @@ public:
 private:
     double m_radius, m_length, m_capHeight;
 };
+
+/** The same capsule in three charts: (rho(v) cos u, rho(v) sin u, v) about the side, chart 0, and about the tips,
+charts 1 (above) and 2, z as a function of x and y. Each ends where its slope grows without bound, beyond where the next
+one has taken over. */
+class ParametricCapsule final : public ParametricTwin<ParametricCapsule, Capsule> {
+public:
+    ParametricCapsule(double radius, double length, double capHeight)
+        : ParametricTwin(Capsule(radius, length, capHeight)) {}
+    ParametricCapsule(double radius, double length) : ParametricCapsule(radius, length, radius) {}
+
+    ParametricValue calcParametric(const Vec2& uv, int chart) const;
+    Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const;
+    int chooseChart(const Vec3& p_S, const Vec3& t_S, int current) const;
+};
+
+extern template class ParametricShape<ParametricCapsule>;
+extern template class ParametricTwin<ParametricCapsule, Capsule>;
 
 }  // namespace tautline

@@ -1,5 +1,6 @@
 #pragma once
 #include "tautline/implicit_surface.h"
+#include "tautline/parametric_twin.h"
 
 namespace tautline {
 
@@ -16,7 +17,7 @@ public:
     double getSize() const override { return m_radius; }
     std::string getDescription() const override;
     bool isConvex() const override { return true; }
-    bool isInDomain(const SurfacePoint& point) const override;
+    double calcDomainMargin(const SurfacePoint& point) const override;
 
     /** f = rho cos(alpha) - z sin(alpha), rho the distance from the axis: the distance itself where the foot is
     on the cone, positive below the apex. On the axis the gradient is that of a point beside it. */
@@ -37,5 +38,30 @@ public:
 private:
     double m_halfAngle, m_radius, m_edgeRadius, m_sine, m_cosine;
 };
+
+/** The same cone: v (sin(alpha) cos u, sin(alpha) sin u, cos(alpha)), v the distance from the apex; u counts turns. */
+class ParametricCone final : public ParametricTwin<ParametricCone, Cone> {
+public:
+    ParametricCone(double halfAngle, double radius, double edgeRadius = 0)
+        : ParametricTwin(Cone(halfAngle, radius, edgeRadius)),
+          m_sine(std::sin(halfAngle)),
+          m_cosine(std::cos(halfAngle)) {}
+
+    double getNormalSign() const { return 1; }
+    ParametricValue calcParametric(const Vec2& uv, int) const {
+        const double c = m_sine * std::cos(uv[0]), s = m_sine * std::sin(uv[0]), v = uv[1];
+        return {{v * c, v * s, v * m_cosine}, {-v * s, v * c, 0}, {c, s, m_cosine},
+                {-v * c, -v * s, 0},          {-s, c, 0},         Vec3::Zero()};
+    }
+    Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
+        return {std::atan2(p_S.y(), p_S.x()), p_S.head<2>().norm() * m_sine + p_S.z() * m_cosine};
+    }
+
+private:
+    double m_sine, m_cosine;
+};
+
+extern template class ParametricShape<ParametricCone>;
+extern template class ParametricTwin<ParametricCone, Cone>;
 
 }  // namespace tautline

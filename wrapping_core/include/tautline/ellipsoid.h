@@ -13,6 +13,8 @@ public:
     double getSize() const override { return m_size; }
     std::string getDescription() const override;
     bool isConvex() const override { return true; }
+    /** The nearest point, also from afar, where the way of steepest descent leads elsewhere on a thin ellipsoid. */
+    SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
     double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
 
     /** f = c/2 (x^2/a^2 + y^2/b^2 + z^2/c^2 - 1) with c the least semi-axis, so that f is a length. */

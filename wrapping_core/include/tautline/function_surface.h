@@ -86,7 +86,7 @@ public:
     std::string getDescription() const override { return m_description; }
     double getNormalSign() const { return m_normalSign; }
     const ParameterDomain& getDomain() const { return m_domain; }
-    bool isInDomain(const SurfacePoint& point) const override { return m_domain.contains(resolve(point).uv); }
+    double calcDomainMargin(const SurfacePoint& point) const override { return m_domain.calcMargin(resolve(point).uv); }
     ParametricValue calcParametric(const Vec2& uv, int) const { return m_full(uv); }
     Vec2 calcNearbyParameters(const Vec3& p_S, int) const { return m_grid.findNearest(p_S); }
 

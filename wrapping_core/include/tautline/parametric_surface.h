@@ -21,6 +21,18 @@ struct ParameterDomain {
     bool contains(const Vec2& uv) const {
         return (uv.array() >= min.array()).all() && (uv.array() <= max.array()).all();
     }
+    /** Distance from the nearest side, over the domain's width if that is finite; negative outside. Rounding of the
+    coordinates is forgiven: 1e-12 of the width beyond a side is still inside. */
+    double calcMargin(const Vec2& uv) const {
+        constexpr double kRounding = 1e-12;
+        double margin = kInfinity;
+        for (int i = 0; i < 2; ++i) {
+            const double width = max[i] - min[i], unit = std::isfinite(width) ? width : 1;
+            const double inside = std::min(uv[i] - min[i], max[i] - uv[i]) / unit + kRounding;
+            if (!(inside >= margin)) margin = inside;  // NaN: outside
+        }
+        return margin;
+    }
     Vec2 clamp(const Vec2& uv) const { return uv.cwiseMax(min).cwiseMin(max); }
 };
 
@@ -173,6 +185,13 @@ public:
         return detail::calcParametricFrame(s, derived().getNormalSign(), direction_S);
     }
 
+    bool calcCoordinateRates(const SurfacePoint& point, const Vec3& velocity_S, Vec2& uvRates) const override {
+        ParametricValue s;
+        resolve(point, s);
+        uvRates = detail::Metric(s).calcRates(s, velocity_S);
+        return true;
+    }
+
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
         shootByIntegration(start, options, geodesic);
     }
@@ -319,7 +338,9 @@ public:
     virtual double getNormalSign() const { return 1; }
     virtual int chooseChart(const Vec3& /*p_S*/, const Vec3& /*t_S*/, int /*current*/) const { return 0; }
 
-    bool isInDomain(const SurfacePoint& point) const override { return getDomain().contains(resolve(point).uv); }
+    double calcDomainMargin(const SurfacePoint& point) const override {
+        return getDomain().calcMargin(resolve(point).uv);
+    }
 
 private:
     mutable std::once_flag m_gridFlag;

@@ -16,10 +16,15 @@ public:
     std::string getDescription() const override { return "parametric " + m_twin.getDescription(); }
     double getSize() const override { return m_twin.getSize(); }
     bool isConvex() const override { return m_twin.isConvex(); }
-    bool isInDomain(const SurfacePoint& point) const override { return m_twin.isInDomain(point); }
+    double calcDomainMargin(const SurfacePoint& point) const override {
+        return point.p.allFinite() ? m_twin.calcDomainMargin(point) : m_twin.calcDomainMargin(this->resolve(point));
+    }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_twin.calcHeight(p_S, N_S); }
     double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override {
         return m_twin.findLowestPoint(A_S, e_S, length);
+    }
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return m_twin.countHoleCrossings(A_S, B_S);
     }
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override {
         return calcCoordinates(m_twin.findSurfacePoint(p_S).p);

@@ -24,9 +24,8 @@ public:
     double getSize() const override { return m_size; }
     double getNormalSign() const { return m_normalSign; }
 
-    bool isInDomain(const SurfacePoint& point) const override {
-        const Vec2 uv = this->resolve(point).uv, margin = 1e-12 * (m_domain.max - m_domain.min);
-        return ParameterDomain{m_domain.min - margin, m_domain.max + margin}.contains(uv);
+    double calcDomainMargin(const SurfacePoint& point) const override {
+        return m_domain.calcMargin(this->resolve(point).uv);
     }
 
     ParametricValue calcParametric(const Vec2& uv, int) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include "tautline/implicit_surface.h"
+#include "tautline/parametric_twin.h"
 
 namespace tautline {
 
@@ -28,5 +29,23 @@ public:
 private:
     double m_size;
 };
+
+/** The same plane with u = x, v = y. */
+class ParametricPlane final : public ParametricTwin<ParametricPlane, Plane> {
+public:
+    explicit ParametricPlane(double size) : ParametricTwin(Plane(size)) {}
+
+    ParametricValue calcParametric(const Vec2& uv, int) const {
+        return {{uv[0], uv[1], 0}, Vec3::UnitX(), Vec3::UnitY(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    }
+    Vec2 calcNearbyParameters(const Vec3& p_S, int) const { return p_S.head<2>(); }
+    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
+        m_twin.shootGeodesic({resolve(start.point), start.tangent, start.length}, options, geodesic);
+        geodesic.endPoint = calcCoordinates(geodesic.Q.x);
+    }
+};
+
+extern template class ParametricShape<ParametricPlane>;
+extern template class ParametricTwin<ParametricPlane, Plane>;
 
 }  // namespace tautline

@@ -51,8 +51,12 @@ public:
     double getSize() const override { return m_scaling.calcSize(); }
     std::string getDescription() const override { return m_scaling.describe(); }
     bool isConvex() const override { return m_scaling.m_base.isConvex(); }
-    bool isInDomain(const SurfacePoint& point) const override {
-        return m_scaling.m_base.isInDomain({m_scaling.m_inverse.cwiseProduct(point.p)});
+    double calcDomainMargin(const SurfacePoint& point) const override {
+        return m_scaling.m_base.calcDomainMargin({m_scaling.m_inverse.cwiseProduct(point.p)});
+    }
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return m_scaling.m_base.countHoleCrossings(m_scaling.m_inverse.cwiseProduct(A_S),
+                                                   m_scaling.m_inverse.cwiseProduct(B_S));
     }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_scaling.calcHeight(p_S, N_S); }
 
@@ -79,8 +83,12 @@ public:
     double getSize() const override { return m_scaling.calcSize(); }
     std::string getDescription() const override { return m_scaling.describe(); }
     bool isConvex() const override { return m_scaling.m_base.isConvex(); }
-    bool isInDomain(const SurfacePoint& point) const override {
-        return m_scaling.m_base.isInDomain({m_scaling.m_inverse.cwiseProduct(point.p), point.uv, point.chart});
+    double calcDomainMargin(const SurfacePoint& point) const override {
+        return m_scaling.m_base.calcDomainMargin({m_scaling.m_inverse.cwiseProduct(point.p), point.uv, point.chart});
+    }
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return m_scaling.m_base.countHoleCrossings(m_scaling.m_inverse.cwiseProduct(A_S),
+                                                   m_scaling.m_inverse.cwiseProduct(B_S));
     }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_scaling.calcHeight(p_S, N_S); }
 

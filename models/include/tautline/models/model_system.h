@@ -17,8 +17,8 @@ namespace tautline::models {
  * A model as a Simbody system that can be simulated: bodies and joints, gravity, and for each muscle or path
  * spring a cable over its wrap objects with a Hill-type muscle or an elastic string that pulls at it.
  *
- * @throws ModelError as buildMultibody() does, and for muscle points that a cable cannot hold yet
- * (moving and conditional ones), naming the point and its line.
+ * @throws ModelError as buildMultibody() does, and for a path whose first or last point is conditional,
+ * naming the point and its line.
  */
 class ModelSystem {
 public:
