@@ -140,8 +140,8 @@ private:
             row.push_back(path.cable.getPathError(state));
             for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e)
                 if (path.cable.isObstacle(e)) row.push_back(path.cable.isTouched(state, e));
-            for (const std::string& name : m_model.getModel().getCoordinateNames())
-                row.push_back(m_model.calcMomentArm(state, path.cable, name));
+            const std::vector<double> arms = m_model.calcMomentArms(state, path.cable);
+            row.insert(row.end(), arms.begin(), arms.end());
         }
         m_result.paths.rows.push_back(row);
     }
