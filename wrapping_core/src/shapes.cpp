@@ -120,11 +120,11 @@ void Cylinder::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance
     clearance.distance = (D - C).dot(N), clearance.scale = 1 / m_radius, clearance.found = true;
 }
 
-Ellipsoid::Ellipsoid(const Vec3& semiAxes) : m_semiAxes(semiAxes), m_size(semiAxes.minCoeff()) {
+Ellipsoid::Ellipsoid(const Vec3& semiAxes)
+    : CentralQuadric(semiAxes.cwiseProduct(semiAxes).cwiseInverse(), semiAxes.minCoeff()), m_semiAxes(semiAxes) {
     requireLength(semiAxes.x(), "ellipsoid: semi-axis x");
     requireLength(semiAxes.y(), "ellipsoid: semi-axis y");
     requireLength(semiAxes.z(), "ellipsoid: semi-axis z");
-    m_hessian = m_size * semiAxes.cwiseProduct(semiAxes).cwiseInverse();
 }
 
 std::string Ellipsoid::getDescription() const {
@@ -138,12 +138,6 @@ double Sphere::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) 
 double Cylinder::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
     const double sine2 = e_S.head<2>().squaredNorm();
     return sine2 > 0 ? std::clamp(-A_S.head<2>().dot(e_S.head<2>()) / sine2, 0.0, length) : 0;
-}
-
-/** The minimum of the quadratic f along the line. */
-double Ellipsoid::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
-    const Vec3 He = m_hessian.cwiseProduct(e_S);
-    return std::clamp(-A_S.dot(He) / e_S.dot(He), 0.0, length);
 }
 
 Torus::Torus(double ringRadius, double tubeRadius) : m_ringRadius(ringRadius), m_tubeRadius(tubeRadius) {
