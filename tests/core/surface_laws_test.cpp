@@ -182,10 +182,10 @@ TEST(FunctionSurfaces, DifferencesAreGoodToSomeTrillionths) {
         "by values: gradient %.1e, Hessian %.1e; by gradients: Hessian %.1e; by positions: first %.1e, second %.1e\n",
         gradients, hessians, halfHessians, first, second);
     EXPECT_LT(gradients, 1e-12);
-    EXPECT_LT(hessians, 2e-11);
+    EXPECT_LT(hessians, 5e-12);
     EXPECT_LT(halfHessians, 1e-12);
     EXPECT_LT(first, 1e-12);
-    EXPECT_LT(second, 2e-11);
+    EXPECT_LT(second, 5e-12);
 }
 
 TEST(SurfaceLawsReport, RefusesASampleWithoutLength) {
