@@ -190,8 +190,9 @@ void startPaths(const ModelSystem& model, State& state, SimulationResult& result
         const models::IteratedPath iterated = models::iteratePath(inPose, path.start);
         recordIterations(path, iterated, result.starts);
         PathSolution solution = models::makePathSolution(inPose, iterated.start);
-        if (solution.status == PathStatus::Solved)
-            PathSolver(path.cable.getOptions()).solve(inPose.problem, inPose.pose, solution);
+        PathSolverOptions options = path.cable.getOptions();
+        options.allowsColdStart = false;  // that would be another path
+        if (solution.status == PathStatus::Solved) PathSolver(options).solve(inPose.problem, inPose.pose, solution);
         if (solution.status != PathStatus::Solved)
             throw std::runtime_error("path '" + path.name + "': the start that the model gives leads to no shortest " +
                                      "path: " + getName(solution.status));
