@@ -5,6 +5,8 @@
 
 #include "support/shapes.h"
 #include "tautline/error.h"
+#include "tautline/parametric_ellipsoid.h"
+#include "tautline/parametric_torus.h"
 
 namespace tautline::testing {
 namespace {
@@ -253,6 +255,10 @@ struct Reference {
         if (kind == "torus") return std::make_shared<Torus>(dimensions[0], dimensions[1]);
         return std::make_shared<Ellipsoid>(dimensions);
     }
+    std::shared_ptr<const Surface> makeParametricSurface() const {
+        if (kind == "torus") return std::make_shared<ParametricTorus>(dimensions[0], dimensions[1]);
+        return std::make_shared<ParametricEllipsoid>(dimensions);
+    }
     /** Largest error of a geodesic shot from P, relative to its growth; lengths in units of the extent. */
     double calcError(const Geodesic& g) const {
         const double extent = dimensions.maxCoeff();
@@ -285,19 +291,22 @@ std::vector<Reference> readReferences() {
 TEST(GeodesicReference, TableIsMetInBothDirections) {
     const std::vector<Reference> references = readReferences();
     ASSERT_GE(references.size(), 12u);
-    for (const Reference& ref : references) {
-        const auto surface = ref.makeSurface();
-        SCOPED_TRACE(surface->getDescription() + " length " + std::to_string(ref.length));
-        // Local error 1e-15 per step: rounding rules, a few ulp for each of up to some hundred steps.
-        const GeodesicOptions finest{1e-15, 5000};
-        const Geodesic there = shoot(*surface, {{ref.P}, ref.t, 0}, ref.length, finest);
-        EXPECT_LT(ref.calcError(there), 1e-13);
-        Reference reversed = ref;
-        reversed.Q = ref.P, reversed.tQ = ref.t;
-        reversed.a = ref.rDot, reversed.aDot = -ref.aDot, reversed.r = -ref.r, reversed.rDot = ref.a;
-        const Geodesic back = shoot(*surface, {{ref.Q}, ref.tQ, 0}, -ref.length, finest);
-        EXPECT_LT(reversed.calcError(back), 1e-13);
-    }
+    for (const Reference& ref : references)
+        for (const auto& surface : {ref.makeSurface(), ref.makeParametricSurface()}) {
+            SCOPED_TRACE(surface->getDescription() + " length " + std::to_string(ref.length));
+            // Local error 1e-15 per step: rounding rules, a few ulp for each of up to some hundred steps.
+            const GeodesicOptions finest{1e-15, 5000};
+            const auto start = [&](const Vec3& p, const Vec3& t) {
+                return GeodesicStart{surface->findSurfacePoint(p), t, 0};
+            };
+            const Geodesic there = shoot(*surface, start(ref.P, ref.t), ref.length, finest);
+            EXPECT_LT(ref.calcError(there), 1e-13);
+            Reference reversed = ref;
+            reversed.Q = ref.P, reversed.tQ = ref.t;
+            reversed.a = ref.rDot, reversed.aDot = -ref.aDot, reversed.r = -ref.r, reversed.rDot = ref.a;
+            const Geodesic back = shoot(*surface, start(ref.Q, ref.tQ), -ref.length, finest);
+            EXPECT_LT(reversed.calcError(back), 1e-13);
+        }
 }
 
 TEST(GeodesicReference, AccuracyControlsTheError) {

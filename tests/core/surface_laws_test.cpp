@@ -103,6 +103,91 @@ TEST(SurfaceLawsReport, FindsAFlippedGradient) {
     EXPECT_TRUE(names(broken, "law 3")) << join(broken);
 }
 
+TEST(SurfaceLawsReport, NamesTheWrongDerivativeOfAFunction) {
+    const auto value = [](const Vec3& p) { return 0.5 * (p.x() * p.x() / 0.3 + p.y() * p.y() + p.z() * p.z() - 0.3); };
+    const auto gradient = [](const Vec3& p) { return Vec3(p.x() / 0.3, p.y(), p.z()); };
+    const auto wrongGradient = [](const Vec3& p) { return Vec3(p.x() / 0.3, p.y(), 1.001 * p.z()); };
+    const auto hessian = [](const Vec3&) { return Mat3(Vec3(1 / 0.3, 1, 1).asDiagonal()); };
+    const auto wrongHessian = [](const Vec3&) {
+        Mat3 H = Vec3(1 / 0.3, 1, 1).asDiagonal();
+        H(0, 2) = 0.01;
+        return H;
+    };
+    const std::vector<SurfaceLawSample> samples = {{Vec3(0.1, 0.2, 0.4), Vec3(1, 0, 0.3), 0.2}};
+    const auto check = [&](const auto& g, const auto& H) {
+        return checkSurfaceLaws(ImplicitFunctionSurface("egg", 0.3, value, g, H), samples);
+    };
+    EXPECT_TRUE(check(gradient, hessian).empty()) << join(check(gradient, hessian));
+    const std::vector<std::string> first = check(wrongGradient, hessian), second = check(gradient, wrongHessian);
+    EXPECT_TRUE(names(first, "law 13 (df/dz is the difference")) << join(first);
+    EXPECT_FALSE(names(first, "df/dx") || names(first, "df/dy")) << join(first);
+    EXPECT_TRUE(names(second, "law 13 (d2f/dzdx is the difference")) << join(second);
+    EXPECT_TRUE(names(second, "law 13 (d2f/dzdx: Hessian symmetric)")) << join(second);
+    EXPECT_FALSE(names(second, "d2f/dxdy") || names(second, "df/d")) << join(second);
+}
+
+/** The saddle with one second derivative wrong. */
+class WrongTwist final : public ParametricSurface {
+public:
+    double getSize() const override { return 0.5; }
+    std::string getDescription() const override { return "wrong twist"; }
+    ParameterDomain getDomain() const override { return {Vec2(-1, -1), Vec2(1, 1)}; }
+    ParametricValue calcParametric(const Vec2& uv, int chart) const override {
+        ParametricValue value = m_right.calcParametric(uv, chart);
+        value.xuv.z() = 0.02;
+        return value;
+    }
+
+private:
+    UserSaddle m_right;
+};
+
+TEST(SurfaceLawsReport, NamesTheWrongDerivativeOfAParametricSurface) {
+    const std::vector<std::string> broken = checkSurfaceLaws(WrongTwist(), {{Vec3(0.1, 0.2, 0), Vec3(1, 0, 0.3), 0.2}});
+    EXPECT_TRUE(names(broken, "law 13 (d2x/dudv")) << join(broken);
+    EXPECT_FALSE(names(broken, "d2x/dudu") || names(broken, "d2x/dvdv") || names(broken, "dx/du is")) << join(broken);
+}
+
+/** The stated schemes against exact derivatives of the same functions. */
+TEST(FunctionSurfaces, DifferencesAreGoodToSomeTrillionths) {
+    const ImplicitFunctionSurface exact = testing::makePear();
+    const auto value = [&](const Vec3& p) { return exact.calcImplicit(p).f; };
+    const auto gradient = [&](const Vec3& p) { return exact.calcImplicit(p).gradient; };
+    const ImplicitFunctionSurface byValues("pear", 0.2, value), byGradients("pear", 0.2, value, gradient);
+    const ParameterDomain square{Vec2(-1, -1), Vec2(1, 1)};
+    const auto formula = [](auto u, auto v) {
+        using Number = decltype(u);
+        return std::array<Number, 3>{u + 0.1 * v, v - 0.1 * u * u, 0.3 * sin(u) * cos(v)};
+    };
+    const ParametricFunctionSurface sheet = makeParametricSurface("sheet", 0.5, square, formula);
+    const auto byPositions = ParametricFunctionSurface::fromPosition(
+        "sheet", 0.5, square, [&](const Vec2& uv) { return sheet.calcParametric(uv, 0).x; });
+    double gradients = 0, hessians = 0, halfHessians = 0, first = 0, second = 0;
+    std::mt19937 random(kSeed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 p = exact.findSurfacePoint(0.3 * Vec3(uniform(random), uniform(random), uniform(random))).p;
+        const ImplicitValue truth = exact.calcImplicit(p), v = byValues.calcImplicit(p),
+                            g = byGradients.calcImplicit(p);
+        gradients = std::max(gradients, (v.gradient - truth.gradient).norm() / truth.gradient.norm());
+        hessians = std::max(hessians, (v.hessian - truth.hessian).norm() / truth.hessian.norm());
+        halfHessians = std::max(halfHessians, (g.hessian - truth.hessian).norm() / truth.hessian.norm());
+        EXPECT_EQ((v.hessian - v.hessian.transpose()).norm() + (g.hessian - g.hessian.transpose()).norm(), 0);
+        const Vec2 uv(uniform(random), uniform(random));
+        const ParametricValue x = sheet.calcParametric(uv, 0), d = byPositions.calcParametric(uv, 0);
+        first = std::max({first, (d.xu - x.xu).norm(), (d.xv - x.xv).norm()});
+        second = std::max({second, (d.xuu - x.xuu).norm(), (d.xuv - x.xuv).norm(), (d.xvv - x.xvv).norm()});
+    }
+    std::printf(
+        "by values: gradient %.1e, Hessian %.1e; by gradients: Hessian %.1e; by positions: first %.1e, second %.1e\n",
+        gradients, hessians, halfHessians, first, second);
+    EXPECT_LT(gradients, 1e-12);
+    EXPECT_LT(hessians, 5e-12);
+    EXPECT_LT(halfHessians, 1e-12);
+    EXPECT_LT(first, 1e-12);
+    EXPECT_LT(second, 5e-12);
+}
+
 TEST(SurfaceLawsReport, RefusesASampleWithoutLength) {
     EXPECT_THROW(checkSurfaceLaws(Sphere(1), {{Vec3(1, 0, 0), Vec3(0, 1, 0), 0}}), InvalidInput);
 }

@@ -111,7 +111,7 @@ ParametricFunctionSurface ParametricFunctionSurface::fromPosition(std::string de
                                                                   const ParameterDomain& domain,
                                                                   PositionFunction position, double normalSign) {
     require(position != nullptr, "parametric function surface: needs a function");
-    const Vec2 extent = domain.max - domain.min, first = 0.5 * kFirstStep * extent, second = 0.5 * kSecondStep * extent;
+    const Vec2 extent = domain.max - domain.min, first = 0.5 * kFirstStep * extent, second = kFirstStep * extent;
     const auto full = [position, first, second](const Vec2& uv) {
         const auto line = [&](const Vec2& step) {
             return [&position, uv, step](double s) { return position(uv + s * step); };

@@ -131,20 +131,14 @@ void Cone::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Geo
 }
 
 EllipticCylinder::EllipticCylinder(double semiAxisX, double semiAxisY)
-    : m_semiAxes(semiAxisX, semiAxisY), m_size(std::min(semiAxisX, semiAxisY)) {
+    : CentralQuadric({1 / (semiAxisX * semiAxisX), 1 / (semiAxisY * semiAxisY), 0}, std::min(semiAxisX, semiAxisY)),
+      m_semiAxes(semiAxisX, semiAxisY) {
     requireLength(semiAxisX, "elliptic cylinder: semi-axis x");
     requireLength(semiAxisY, "elliptic cylinder: semi-axis y");
-    m_hessian = Vec3(m_size / (semiAxisX * semiAxisX), m_size / (semiAxisY * semiAxisY), 0);
 }
 
 std::string EllipticCylinder::getDescription() const {
     return describeShape("elliptic cylinder(semi-axes=", m_semiAxes.x(), ", ", m_semiAxes.y(), ")");
-}
-
-double EllipticCylinder::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
-    const Vec3 He = m_hessian.cwiseProduct(e_S);
-    const double quadratic = e_S.dot(He);
-    return quadratic > 0 ? std::clamp(-A_S.dot(He) / quadratic, 0.0, length) : 0;
 }
 
 Capsule::Capsule(double radius, double length, double capHeight)

@@ -44,12 +44,10 @@ struct OffsetGeodesicEquations {
     const Surface& base;
     double h, size;
     bool hasCoordinates;
-    double rSign;
     SurfacePoint foot;   ///< at the last projected state
     DarbouxFrame frame;  ///< of the offset surface there
     Vec2 lengths{1, 1};  ///< |xu|, |xv| there: make errors of u, v lengths
-    double maxKappaN = -kInfinity;
-    bool hasConjugatePoint = false;
+    double maxKappaN = kNaN;
 
     SurfacePoint calcFoot(const State& y) const {
         return hasCoordinates ? SurfacePoint{Vec3::Constant(kNaN), y.segment<2>(3), foot.chart}
@@ -71,15 +69,16 @@ struct OffsetGeodesicEquations {
         slope.segment<3>(5) = shape.kappaN * below.N;
         slope.tail<4>() << y[9], -K * y[8], y[11], -K * y[10];
     }
-    void calcErrorWeights(const State& y, State& weights) const {
-        weights << Vec3::Constant(1 / size), lengths / size, Vec3::Ones(), 1, size, 1 / size, 1;
-        for (int i = 8; i < n; ++i) weights[i] /= std::max(1.0, weights[i] * std::abs(y[i]));
+    void calcProjectedDerivative(const State& y, State& slope) const { calcDerivative(y, slope); }
+    void calcErrorWeights(const State& /*y*/, State& weights) const {
+        weights.head<8>() << Vec3::Constant(1 / size), lengths / size, Vec3::Ones();
     }
     /** Back to the base, in the chart that suits, and to unit speed. */
     void project(State& y) {
         const SurfacePoint C = calcFoot(y);
         foot = hasCoordinates ? base.calcDisplacedPoint(C, Vec3::Zero()) : base.findSurfacePoint(C.p);
         place(base.calcFrame(foot, y.segment<3>(5)), y);
+        maxKappaN = std::max(maxKappaN, frame.kappaN);
     }
     /** Sets all but the Jacobi fields from the foot and the base's frame there. */
     void place(const DarbouxFrame& below, State& y) {
@@ -99,10 +98,6 @@ struct OffsetGeodesicEquations {
         const double determinant = std::abs(rates(0, 0) * rates(1, 1) - rates(0, 1) * rates(1, 0));
         lengths = Vec2(rates.row(1).norm(), rates.row(0).norm()) / determinant;
     }
-    void watch(const State& y) {
-        maxKappaN = std::max(maxKappaN, frame.kappaN);
-        if (y[10] * rSign <= 0) hasConjugatePoint = true;
-    }
 };
 
 /** Foot of p on the base: Newton's method for (p - C) normal to the base, from a point C of the base.
@@ -110,7 +105,7 @@ struct OffsetGeodesicEquations {
 bool refineFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFrame& frame) {
     constexpr int kMaxIterations = 30;
     const double size = base.getSize(), enough = 1e-8 * size;  // after such a step its square is left
-    Vec3 direction = Vec3::UnitX();  // any will do
+    Vec3 direction = Vec3::UnitX();                            // any will do
     for (int i = 0; i < kMaxIterations; ++i) {
         frame = base.calcFrame(C, direction);
         direction = frame.t;
@@ -228,22 +223,13 @@ void OffsetSurface::shootGeodesic(const GeodesicStart& start, const GeodesicOpti
     SurfacePoint C;
     DarbouxFrame below;
     findFootOfPoint(start.point, start.tangent, C, below);
-    OffsetGeodesicEquations equations{*m_base, m_thickness, getSize(), m_hasCoordinates, start.length < 0 ? -1.0 : 1.0,
-                                      C,       {}};
+    OffsetGeodesicEquations equations{*m_base, m_thickness, getSize(), m_hasCoordinates, C, {}};
     OffsetGeodesicEquations::State y;
-    y.tail<4>() << 1, 0, 0, 1;
     equations.place(below, y);
-    const DarbouxFrame& P = geodesic.P = equations.frame;
-    equations.maxKappaN = P.kappaN;
-    const double curvature = std::max({std::abs(P.kappaN), std::abs(P.kappaB), std::abs(P.tauG)});
-    geodesic.steps = integrateGeodesic(equations, y, start.length, calcFirstStep(curvature, options.accuracy), options);
-    geodesic.converged = geodesic.steps >= 0;
+    geodesic.P = equations.frame;
+    integrateGeodesic(equations, y, start.length, options, geodesic);
     geodesic.Q = equations.frame;
     geodesic.endPoint = {geodesic.Q.x, equations.foot.uv, equations.foot.chart};
-    geodesic.length = start.length;
-    geodesic.a = y[8], geodesic.aDot = y[9], geodesic.r = y[10], geodesic.rDot = y[11];
-    geodesic.hasConjugatePoint = equations.hasConjugatePoint;
-    geodesic.maxKappaN = equations.maxKappaN;
 }
 
 /** Lowest over the base is near enough to the lowest over the offset to start from, and refined from there. */

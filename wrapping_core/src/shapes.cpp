@@ -120,11 +120,11 @@ void Cylinder::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance
     clearance.distance = (D - C).dot(N), clearance.scale = 1 / m_radius, clearance.found = true;
 }
 
-Ellipsoid::Ellipsoid(const Vec3& semiAxes) : m_semiAxes(semiAxes), m_size(semiAxes.minCoeff()) {
+Ellipsoid::Ellipsoid(const Vec3& semiAxes)
+    : CentralQuadric(semiAxes.cwiseProduct(semiAxes).cwiseInverse(), semiAxes.minCoeff()), m_semiAxes(semiAxes) {
     requireLength(semiAxes.x(), "ellipsoid: semi-axis x");
     requireLength(semiAxes.y(), "ellipsoid: semi-axis y");
     requireLength(semiAxes.z(), "ellipsoid: semi-axis z");
-    m_hessian = m_size * semiAxes.cwiseProduct(semiAxes).cwiseInverse();
 }
 
 std::string Ellipsoid::getDescription() const {
@@ -138,30 +138,6 @@ double Sphere::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) 
 double Cylinder::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
     const double sine2 = e_S.head<2>().squaredNorm();
     return sine2 > 0 ? std::clamp(-A_S.head<2>().dot(e_S.head<2>()) / sine2, 0.0, length) : 0;
-}
-
-/** The minimum of the quadratic f along the line. */
-double Ellipsoid::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
-    const Vec3 He = m_hessian.cwiseProduct(e_S);
-    return std::clamp(-A_S.dot(He) / e_S.dot(He), 0.0, length);
-}
-
-/** From afar the foot is x_i = a_i^2 p_i/(t + a_i^2) with t the root of sum (a_i p_i/(t + a_i^2))^2 = 1, a convex
-falling function: Newton's method from where one term alone is 1 comes to it from below. */
-SurfacePoint Ellipsoid::findSurfacePoint(const Vec3& p_S) const {
-    constexpr double kNear = 0.2;  // in sizes; there the way of steepest descent is shorter
-    constexpr int kMaxIterations = 60;
-    if (!(calcImplicit(p_S).f > kNear * m_size)) return {projectToSurface(p_S)};
-    const Vec3 squares = m_semiAxes.cwiseProduct(m_semiAxes), scaled = m_semiAxes.cwiseProduct(p_S);
-    double t = std::max(0.0, (scaled.cwiseAbs() - squares).maxCoeff());
-    for (int i = 0; i < kMaxIterations; ++i) {
-        const Vec3 weights = (squares.array() + t).inverse(), terms = scaled.cwiseProduct(weights);
-        const double g = terms.squaredNorm() - 1, slope = -2 * terms.cwiseProduct(terms).dot(weights);
-        const double step = -g / slope;
-        if (!(step > 1e-12 * t)) break;
-        t += step;
-    }
-    return {projectToSurface(squares.cwiseProduct(p_S).array() / (squares.array() + t))};
 }
 
 Torus::Torus(double ringRadius, double tubeRadius) : m_ringRadius(ringRadius), m_tubeRadius(tubeRadius) {

@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "tautline/error.h"
+#include "tautline/implicit_surface.h"
+#include "tautline/parametric_surface.h"
 
 namespace tautline {
 namespace {
@@ -33,11 +35,13 @@ public:
         checkNeighbours();
         checkZeroLength();
         checkAnyPoint();
+        checkImplicitForm();
+        checkParametricForm();
     }
 
 private:
     /** Notes a broken law unless value <= limit; NaN breaks it. */
-    void demand(double value, double limit, const char* law) {
+    void demand(double value, double limit, const std::string& law) {
         if (value <= limit) return;
         std::ostringstream text;
         text.precision(6);
@@ -218,6 +222,55 @@ private:
         const bool isFinite = std::isfinite(m_surface.calcHeight(Vec3::Zero(), N)) && N.allFinite() &&
                               m_surface.findSurfacePoint(Vec3::Zero()).p.allFinite();
         demand(isFinite ? 0 : 1, 0, "12 (the origin too)");
+    }
+
+    void checkImplicitForm() {
+        ImplicitValue at, plus, minus;
+        if (!m_surface.calcImplicitForm(m_point.p, at)) return;
+        const double step = m_options.differenceStep * std::min(m_size, 1 / m_curvature);
+        const double limit = m_options.differenceTolerance * at.gradient.norm();
+        const auto entry = [](const char* of, int i, int j) {
+            return std::string("13 (") + of + "d" + "xyz"[i] + (j < 0 ? "" : std::string("d") + "xyz"[j]);
+        };
+        for (int i = 0; i < 3; ++i) {
+            m_surface.calcImplicitForm(m_point.p + step * Vec3::Unit(i), plus);
+            m_surface.calcImplicitForm(m_point.p - step * Vec3::Unit(i), minus);
+            demand(std::abs(at.gradient[i] - (plus.f - minus.f) / (2 * step)), limit,
+                   entry("df/", i, -1) + " is the difference of f)");
+            const Vec3 column = (plus.gradient - minus.gradient) / (2 * step);
+            for (int j = 0; j < 3; ++j)
+                demand(std::abs(at.hessian(j, i) - column[j]), limit * m_curvature,
+                       entry("d2f/", i, j) + " is the difference of the gradient)");
+            const int j = (i + 1) % 3;
+            demand(std::abs(at.hessian(i, j) - at.hessian(j, i)), 1e-12 * at.hessian.norm(),
+                   entry("d2f/", i, j) + ": Hessian symmetric)");
+        }
+    }
+
+    void checkParametricForm() {
+        ParametricValue at, plus, minus;
+        if (!m_surface.calcParametricForm(m_point, at)) return;
+        const double step = m_options.differenceStep * std::min(m_size, 1 / m_curvature);
+        const Vec3* const first[] = {&at.xu, &at.xv};
+        const Vec3* const second[2][2] = {{&at.xuu, &at.xuv}, {&at.xuv, &at.xvv}};
+        for (int i = 0; i < 2; ++i) {
+            const double speed = first[i]->norm(), h = step / speed;
+            const auto move = [&](double by, ParametricValue& value) {
+                SurfacePoint there = m_point;
+                there.uv[i] += by;
+                m_surface.calcParametricForm(there, value);
+            };
+            move(h, plus), move(-h, minus);
+            const std::string name(1, "uv"[i]);
+            demand((*first[i] - (plus.x - minus.x) / (2 * h)).norm(), m_options.differenceTolerance * speed,
+                   "13 (dx/d" + name + " is the difference of x)");
+            for (int j = 0; j < 2; ++j) {
+                const Vec3 difference = j == 0 ? Vec3(plus.xu - minus.xu) : Vec3(plus.xv - minus.xv);
+                const double unit = std::max(speed * first[j]->norm() * m_curvature, second[i][j]->norm());
+                demand((*second[i][j] - difference / (2 * h)).norm(), m_options.differenceTolerance * unit,
+                       "13 (d2x/d" + name + "d" + "uv"[j] + " is the difference of dx/d" + "uv"[j] + ")");
+            }
+        }
     }
 
     const Surface& m_surface;

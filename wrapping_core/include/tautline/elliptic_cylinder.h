@@ -1,31 +1,20 @@
 #pragma once
-#include "tautline/implicit_surface.h"
+#include "tautline/central_quadric.h"
 #include "tautline/parametric_twin.h"
 
 namespace tautline {
 
 /** Cylinder of infinite length along the z axis of S with an elliptic section. */
-class EllipticCylinder final : public ImplicitShape<EllipticCylinder> {
+class EllipticCylinder final : public CentralQuadric<EllipticCylinder> {
 public:
     /** @param semiAxisX, semiAxisY   of the section [m], positive; InvalidInput otherwise */
     EllipticCylinder(double semiAxisX, double semiAxisY);
 
     const Vec2& getSemiAxes() const { return m_semiAxes; }
-    double getSize() const override { return m_size; }
     std::string getDescription() const override;
-    bool isConvex() const override { return true; }
-    double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
-
-    /** f = c/2 (x^2/a^2 + y^2/b^2 - 1), c the lesser semi-axis. */
-    ImplicitValue calcImplicit(const Vec3& p) const {
-        const Vec3 gradient = m_hessian.cwiseProduct(p);
-        return {0.5 * (gradient.dot(p) - m_size), gradient, m_hessian.asDiagonal()};
-    }
 
 private:
     Vec2 m_semiAxes;
-    double m_size;
-    Vec3 m_hessian;
 };
 
 /** The same cylinder: (a cos u, b sin u, v); u counts turns. */

@@ -68,7 +68,7 @@ ImplicitFunctionSurface makeImplicitSurface(std::string description, double size
 }
 
 /** x(u, v) over a rectangle from functions. From the position alone, derivatives come from central differences of sixth
-order with steps of 0.5% of the domain (first) and 1.5% (second), so x must be defined a little beyond it. */
+order with steps of 0.5% of the domain (first) and 1% (second), so x must be defined a little beyond it. */
 class ParametricFunctionSurface final : public ParametricShape<ParametricFunctionSurface> {
 public:
     using PositionFunction = std::function<Vec3(const Vec2& uv)>;

@@ -8,35 +8,56 @@ surfaces. The surface's equations come as a template parameter, so that no call 
 
 namespace tautline {
 
-/** Integrates `equations` over the arc length `length`, signed.
+/** For step lengths of a pair of order eight; three roots are quicker than a power. */
+inline double calcEighthRoot(double x) {
+    return std::sqrt(std::sqrt(std::sqrt(x)));
+}
 
-`Equations` gives: `static constexpr int n`; `State = Eigen::Matrix<double, n, 1>`;
-`void calcDerivative(const State&, State&)`; `void calcErrorWeights(const State&, State&)`, 1 over the
-size that counts as 1 for each component; `void project(State&)`, back to surface, tangency and unit
-speed; `void watch(const State&)`, called after each accepted step.
+/** Length of the first step: an angle on the circle of the sharpest curvature at the start that the pair usually gets
+through at `accuracy`. Only a guess: the error estimate has the last word. */
+inline double calcFirstStep(const DarbouxFrame& P, double accuracy) {
+    const double curvature = std::max({std::abs(P.kappaN), std::abs(P.kappaB), std::abs(P.tauG)});
+    const double angle = std::clamp(3.5 * calcEighthRoot(accuracy), 0.02, 2.0);
+    return curvature > 0 ? angle / curvature : kInfinity;
+}
 
-@param firstStep   suggestion for |h|, a function of the surface and accuracy alone, so that the answer does
-                   not depend on what was shot before
-@return number of accepted steps, or -1 if maxSteps did not suffice or a number stopped being finite */
+/** Integrates `equations` from geodesic.P over the arc length `length`, signed, and sets all of `geodesic` but its end.
+
+`Equations` gives: `static constexpr int n`; `State = Eigen::Matrix<double, n, 1>`, whose last four are the Jacobi
+fields a, a', r, r'; `void calcDerivative(const State&, State&)`; `void calcErrorWeights(const State&, State&)`, 1 over
+the size that counts as 1 for each component but those four; `double size`, the surface's; `void project(State&)`, back
+to surface, tangency and unit speed; `void calcProjectedDerivative(const State&, State&)`, the derivative at the start
+and where project() has just been; `double maxKappaN`, the largest since the start, kept by project().
+
+@param y   in: the start; out: the end, or where the integrator gave up because maxSteps did not suffice or a
+           number stopped being finite (geodesic.converged = false) */
 template <class Equations>
-int integrateGeodesic(Equations& equations, typename Equations::State& y, double length, double firstStep,
-                      const GeodesicOptions& options) {
+void integrateGeodesic(Equations& equations, typename Equations::State& y, double length,
+                       const GeodesicOptions& options, Geodesic& geodesic) {
     using State = typename Equations::State;
-    constexpr double kSafety = 0.9, kMinFactor = 0.2, kMaxFactor = 5.0, kOrder = 8.0;
+    constexpr double kSafety = 0.9, kMinFactor = 0.2, kMaxFactor = 5.0;
+    constexpr int kA = Equations::n - 4, kR = Equations::n - 2;
     const auto derivative = [&equations](const State& state, State& slope) { equations.calcDerivative(state, slope); };
     State slope, yNew, error5, error3, weights;
-    double done = 0, step = std::min(std::abs(length), firstStep);
-    int accepted = 0;
-    const double direction = length < 0 ? -1 : 1;
-    equations.calcDerivative(y, slope);
-    if (!y.allFinite() || !slope.allFinite() || !std::isfinite(length)) return -1;
-    for (int attempt = 0; attempt < options.maxSteps && done < std::abs(length); ++attempt) {
+    y.template tail<4>() << 1, 0, 0, 1;
+    geodesic.length = length;
+    geodesic.steps = 0, geodesic.hasConjugatePoint = false;
+    equations.maxKappaN = geodesic.P.kappaN;
+    // The first step depends on the start and the accuracy alone, so that the answer does not depend on what was shot
+    // before.
+    double done = 0, step = std::min(std::abs(length), calcFirstStep(geodesic.P, options.accuracy));
+    const double direction = length < 0 ? -1 : 1, jacobiUnits[4] = {1, equations.size, 1 / equations.size, 1};
+    equations.calcProjectedDerivative(y, slope);
+    const bool isFinite = y.allFinite() && slope.allFinite() && std::isfinite(length);
+    for (int attempt = 0; isFinite && attempt < options.maxSteps && done < std::abs(length); ++attempt) {
         const double left = std::abs(length) - done;
         // The rest in equal steps: a last step of rounding size would cost as much as a whole one.
         const bool isLast = step >= left * (1 - 1e-12);
         const double h = direction * (isLast ? left : std::min(step, std::max(left / 2, step / 2)));
         stepDormandPrince853<Equations::n>(derivative, y, slope, h, yNew, error5, error3);
         equations.calcErrorWeights(y, weights);
+        for (int i = 0; i < 4; ++i)  // relative to fields that have grown
+            weights[kA + i] = jacobiUnits[i] / std::max(1.0, jacobiUnits[i] * std::abs(y[kA + i]));
         const double e5 = weights.cwiseProduct(error5).squaredNorm(), e3 = weights.cwiseProduct(error3).squaredNorm();
         // Error estimate of the 8(5,3) pair (Hairer, Norsett, Wanner, Sec. II.10).
         const double error = e5 > 0 ? e5 / std::sqrt(e5 + 0.01 * e3) : 0;
@@ -44,24 +65,20 @@ int integrateGeodesic(Equations& equations, typename Equations::State& y, double
             step = std::abs(h) * kMinFactor;
             continue;
         }
-        const double factor = error > 0 ? kSafety * std::pow(options.accuracy / error, 1 / kOrder) : kMaxFactor;
+        const double factor = error > 0 ? kSafety * calcEighthRoot(options.accuracy / error) : kMaxFactor;
         step = std::abs(h) * std::clamp(factor, kMinFactor, kMaxFactor);
         if (error > options.accuracy) continue;
         y = yNew;
         equations.project(y);
-        equations.watch(y);
+        if (y[kR] * direction <= 0) geodesic.hasConjugatePoint = true;
         done = isLast ? std::abs(length) : done + std::abs(h);
-        ++accepted;
-        if (!isLast) equations.calcDerivative(y, slope);
+        ++geodesic.steps;
+        if (!isLast) equations.calcProjectedDerivative(y, slope);
     }
-    return done >= std::abs(length) ? accepted : -1;
-}
-
-/** Length of the first step for a curvature scale [1/m]: an angle on the circle of that curvature that the
-pair usually gets through at `accuracy`. Only a guess: the error estimate has the last word. */
-inline double calcFirstStep(double curvature, double accuracy) {
-    const double angle = std::clamp(4.5 * std::pow(accuracy, 1.0 / 12.0), 0.2, 2.0);
-    return curvature > 0 ? angle / curvature : kInfinity;
+    geodesic.converged = isFinite && done >= std::abs(length);
+    if (!geodesic.converged) geodesic.steps = -1;
+    geodesic.a = y[kA], geodesic.aDot = y[kA + 1], geodesic.r = y[kR], geodesic.rDot = y[kR + 1];
+    geodesic.maxKappaN = equations.maxKappaN;
 }
 
 }  // namespace tautline

@@ -14,6 +14,12 @@ struct ImplicitValue {
 
 namespace detail {
 
+/** H v for symmetric H, written out: Eigen's product is a call at -O2, and this is half the cost of a geodesic. */
+inline Vec3 multiply(const Mat3& H, const Vec3& v) {
+    return {H(0, 0) * v.x() + H(0, 1) * v.y() + H(0, 2) * v.z(), H(0, 1) * v.x() + H(1, 1) * v.y() + H(1, 2) * v.z(),
+            H(0, 2) * v.x() + H(1, 2) * v.y() + H(2, 2) * v.z()};
+}
+
 /** Trihedron and curvatures from gradient and Hessian (thesis Sec. 7.1 to 7.3, signs of Eqn. 3.63). */
 inline DarbouxFrame calcImplicitFrame(const ImplicitValue& value, const Vec3& p, const Vec3& direction) {
     DarbouxFrame frame;
@@ -22,7 +28,7 @@ inline DarbouxFrame calcImplicitFrame(const ImplicitValue& value, const Vec3& p,
     frame.N = value.gradient / g;
     frame.t = makeTangent(direction, frame.N);
     frame.B = frame.t.cross(frame.N);
-    const Vec3 dN_t = value.hessian * frame.t / g, dN_B = value.hessian * frame.B / g;
+    const Vec3 dN_t = multiply(value.hessian, frame.t) / g, dN_B = multiply(value.hessian, frame.B) / g;
     frame.kappaN = -frame.t.dot(dN_t);
     frame.tauG = frame.B.dot(dN_t);
     frame.kappaB = -frame.B.dot(dN_B);
@@ -38,42 +44,46 @@ struct ImplicitGeodesicEquations {
 
     const ImplicitFunction& surface;
     double size;
-    DarbouxFrame frame;  ///< at the last projected state
-    double maxKappaN = -kInfinity;
-    bool hasConjugatePoint = false;
+    ImplicitValue value;  ///< at the last projected state
+    double maxKappaN = kNaN;
 
     void calcDerivative(const State& y, State& slope) const {
-        const Vec3 p = y.segment<3>(0), t = y.segment<3>(3);
-        const ImplicitValue value = surface.calcImplicit(p);
-        const double g2 = value.gradient.squaredNorm();
-        const Vec3 Ht = value.hessian * t, B_g = t.cross(value.gradient);  // B_g = |g| B
-        const double tHt = t.dot(Ht);
+        calcDerivative(surface.calcImplicit(Vec3(y[0], y[1], y[2])), y, slope);
+    }
+    /** At the last projected state, without evaluating the surface again. */
+    void calcProjectedDerivative(const State& y, State& slope) const { calcDerivative(value, y, slope); }
+
+    void calcDerivative(const ImplicitValue& at, const State& y, State& slope) const {
+        const Vec3 t(y[3], y[4], y[5]), &g = at.gradient;
+        const Vec3 B_g(t.y() * g.z() - t.z() * g.y(), t.z() * g.x() - t.x() * g.z(), t.x() * g.y() - t.y() * g.x());
+        const Vec3 Ht = multiply(at.hessian, t), HB = multiply(at.hessian, B_g);  // B_g = |g| B
+        const double inverse = 1 / dot(g, g), tHt = dot(t, Ht), BHt = dot(B_g, Ht);
         // K = kappaN kappaB - tauG^2 with B = B_g/|g|: one power of |g|^2 for each factor.
-        const double K = (tHt * B_g.dot(value.hessian * B_g) - B_g.dot(Ht) * B_g.dot(Ht)) / (g2 * g2);
-        slope.segment<3>(0) = t;
-        slope.segment<3>(3) = (-tHt / g2) * value.gradient;  // t' = kappaN N
+        const double K = (tHt * dot(B_g, HB) - BHt * BHt) * inverse * inverse, bend = -tHt * inverse;
+        slope[0] = t.x(), slope[1] = t.y(), slope[2] = t.z();
+        slope[3] = bend * g.x(), slope[4] = bend * g.y(), slope[5] = bend * g.z();  // t' = kappaN N
         slope[6] = y[7];
         slope[7] = -K * y[6];
         slope[8] = y[9];
         slope[9] = -K * y[8];
     }
-    void calcErrorWeights(const State& y, State& weights) const {
-        weights << Vec3::Constant(1 / size), Vec3::Ones(), 1, size, 1 / size, 1;
-        for (int i = 6; i < n; ++i) weights[i] /= std::max(1.0, weights[i] * std::abs(y[i]));
+    void calcErrorWeights(const State& /*y*/, State& weights) const {
+        weights.template head<6>() << Vec3::Constant(1 / size), Vec3::Ones();
     }
     void project(State& y) {
-        const Vec3 p = y.segment<3>(0);
-        ImplicitValue value = surface.calcImplicit(p);
-        y.segment<3>(0) = p - value.f / value.gradient.squaredNorm() * value.gradient;
-        value = surface.calcImplicit(Vec3(y.segment<3>(0)));
-        frame = calcImplicitFrame(value, y.segment<3>(0), y.segment<3>(3));
-        y.segment<3>(3) = frame.t;
+        const Vec3 p = y.template segment<3>(0);
+        value = surface.calcImplicit(p);
+        const Vec3 onSurface = p - value.f / dot(value.gradient, value.gradient) * value.gradient;
+        value = surface.calcImplicit(onSurface);
+        y.template segment<3>(0) = onSurface;
+        const double g = std::sqrt(dot(value.gradient, value.gradient));
+        const Vec3 t = makeTangent(y.template segment<3>(3), value.gradient / g);
+        y.template segment<3>(3) = t;
+        maxKappaN = std::max(maxKappaN, -dot(t, multiply(value.hessian, t)) / g);
     }
-    void watch(const State& y) {
-        maxKappaN = std::max(maxKappaN, frame.kappaN);
-        if (y[8] * rSign <= 0) hasConjugatePoint = true;
-    }
-    double rSign = 1;  ///< of r ahead of the start: the sign of the length
+
+private:
+    static double dot(const Vec3& a, const Vec3& b) { return a.x() * b.x() + a.y() * b.y() + a.z() * b.z(); }
 };
 
 }  // namespace detail
@@ -111,23 +121,19 @@ public:
     /** Shooting by the adaptive integrator, also where a closed form stands in its place. */
     void shootByIntegration(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const {
         using Equations = detail::ImplicitGeodesicEquations<Derived>;
-        Equations equations{derived(), getSize(), calcFrame(start.point, start.tangent)};
-        geodesic.P = geodesic.Q = equations.frame;
-        equations.maxKappaN = geodesic.P.kappaN;
-        equations.rSign = start.length < 0 ? -1 : 1;
+        const ImplicitValue value = derived().calcImplicit(start.point.p);
+        geodesic.P = detail::calcImplicitFrame(value, start.point.p, start.tangent);
+        Equations equations{derived(), getSize(), value};
         typename Equations::State y;
-        y << geodesic.P.x, geodesic.P.t, 1, 0, 0, 1;
-        const double curvature =
-            std::max({std::abs(geodesic.P.kappaN), std::abs(geodesic.P.kappaB), std::abs(geodesic.P.tauG)});
-        geodesic.steps =
-            integrateGeodesic(equations, y, start.length, calcFirstStep(curvature, options.accuracy), options);
-        geodesic.converged = geodesic.steps >= 0;
-        geodesic.Q = equations.frame;
+        y.template head<6>() << geodesic.P.x, geodesic.P.t;
+        integrateGeodesic(equations, y, start.length, options, geodesic);
+        geodesic.Q = detail::calcImplicitFrame(equations.value, y.template segment<3>(0), y.template segment<3>(3));
         geodesic.endPoint = {geodesic.Q.x};
-        geodesic.length = start.length;
-        geodesic.a = y[6], geodesic.aDot = y[7], geodesic.r = y[8], geodesic.rDot = y[9];
-        geodesic.hasConjugatePoint = equations.hasConjugatePoint;
-        geodesic.maxKappaN = equations.maxKappaN;
+    }
+
+    bool calcImplicitForm(const Vec3& p_S, ImplicitValue& value) const override {
+        value = derived().calcImplicit(p_S);
+        return true;
     }
 
 protected:

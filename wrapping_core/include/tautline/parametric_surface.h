@@ -78,11 +78,9 @@ struct ParametricGeodesicEquations {
     const ParametricFunction& surface;
     double size;
     int chart;
-    double rSign = 1;                     ///< of r ahead of the start: the sign of the length
     DarbouxFrame frame{};                 ///< at the last projected state
     double lengthOfU = 1, lengthOfV = 1;  ///< |xu|, |xv| there: make errors of u, v lengths
-    double maxKappaN = -kInfinity;
-    bool hasConjugatePoint = false;
+    double maxKappaN = kNaN;
 
     void calcDerivative(const State& y, State& slope) const {
         const ParametricValue s = surface.calcTurned(Vec2(y[0], y[1]), chart);
@@ -103,9 +101,9 @@ struct ParametricGeodesicEquations {
         slope[6] = y[7];
         slope[7] = -K * y[6];
     }
-    void calcErrorWeights(const State& y, State& weights) const {
-        weights << lengthOfU / size, lengthOfV / size, lengthOfU, lengthOfV, 1, size, 1 / size, 1;
-        for (int i = 4; i < n; ++i) weights[i] /= std::max(1.0, weights[i] * std::abs(y[i]));
+    void calcProjectedDerivative(const State& y, State& slope) const { calcDerivative(y, slope); }
+    void calcErrorWeights(const State& /*y*/, State& weights) const {
+        weights.template head<4>() << lengthOfU / size, lengthOfV / size, lengthOfU, lengthOfV;
     }
     /** Back to unit speed (Eqn. 3.54), and on to the chart that suits the direction of travel. */
     void project(State& y) {
@@ -119,6 +117,7 @@ struct ParametricGeodesicEquations {
         } else {
             place(s, t, y);
         }
+        maxKappaN = std::max(maxKappaN, frame.kappaN);
     }
     /** Sets u', v' of a state whose u, v are set, and the frame there. */
     void place(const ParametricValue& s, const Vec3& direction, State& y) {
@@ -127,10 +126,6 @@ struct ParametricGeodesicEquations {
         y.template segment<2>(2) = metric.calcRates(s, frame.t);  // Eqn. 4.65, of unit speed (4.66)
         lengthOfU = std::sqrt(metric.E);
         lengthOfV = std::sqrt(metric.G);
-    }
-    void watch(const State& y) {
-        maxKappaN = std::max(maxKappaN, frame.kappaN);
-        if (y[6] * rSign <= 0) hasConjugatePoint = true;
     }
 };
 
@@ -206,23 +201,19 @@ public:
             from.uv = derived().calcNearbyParameters(from.p, chart);
             s = derived().calcParametric(from.uv, chart);
         }
-        Equations equations{derived(), getSize(), chart, start.length < 0 ? -1.0 : 1.0};
+        Equations equations{derived(), getSize(), chart};
         typename Equations::State y;
-        y << from.uv, 0, 0, 1, 0, 0, 1;
+        y.template head<4>() << from.uv, 0, 0;
         equations.place(s, start.tangent, y);
         geodesic.P = equations.frame;
-        equations.maxKappaN = geodesic.P.kappaN;
-        const double curvature =
-            std::max({std::abs(geodesic.P.kappaN), std::abs(geodesic.P.kappaB), std::abs(geodesic.P.tauG)});
-        geodesic.steps =
-            integrateGeodesic(equations, y, start.length, calcFirstStep(curvature, options.accuracy), options);
-        geodesic.converged = geodesic.steps >= 0;
+        integrateGeodesic(equations, y, start.length, options, geodesic);
         geodesic.Q = equations.frame;
         geodesic.endPoint = {geodesic.Q.x, Vec2(y[0], y[1]), equations.chart};
-        geodesic.length = start.length;
-        geodesic.a = y[4], geodesic.aDot = y[5], geodesic.r = y[6], geodesic.rDot = y[7];
-        geodesic.hasConjugatePoint = equations.hasConjugatePoint;
-        geodesic.maxKappaN = equations.maxKappaN;
+    }
+
+    bool calcParametricForm(const SurfacePoint& point, ParametricValue& value) const override {
+        value = derived().calcParametric(point.uv, point.chart);
+        return true;
     }
 
     /** The same point with (u, v) that belong to its p: points given by p alone get them here. */

@@ -6,6 +6,9 @@
 
 namespace tautline {
 
+struct ImplicitValue;
+struct ParametricValue;
+
 /** Where a straight line comes nearest to a surface, or dips deepest below it (thesis Sec. 6.1, 7.6):
 D on the line, C on the surface, D - C orthogonal to both. */
 struct LineClearance {
@@ -63,6 +66,11 @@ public:
     /** Coordinate s in [0, length] at which the segment A + s e is lowest over the surface: where to look for
     its clearance. By default the lowest of samples spaced by the surface's size, refined. */
     virtual double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const;
+
+    /** The function f behind an implicit surface, the x(u, v) behind a parametric one, for checks of their derivatives.
+    @return false, and nothing set, if the surface has no such form */
+    virtual bool calcImplicitForm(const Vec3& /*p_S*/, ImplicitValue& /*value*/) const { return false; }
+    virtual bool calcParametricForm(const SurfacePoint& /*point*/, ParametricValue& /*value*/) const { return false; }
 
     /** True if no straight line that leaves the surface tangentially can meet it again, and a geodesic
     presses on it everywhere: such checks are then skipped. */

@@ -37,6 +37,9 @@ struct SurfaceLawOptions {
 10. Jacobi fields are the differences of neighbouring geodesics.
 11. Zero length: end = start, a = 1, r = 0.
 12. Any point in space has a finite height and a finite surface point.
+13. Of an implicit form, gradient and Hessian are differences of f and of the gradient, the Hessian symmetric; of a
+    parametric form, first and second derivatives are differences of x and of the first. The sentence names the entry:
+    df/dy, d2f/dxdz, dx/du, d2x/dudv.
 
 @return a sentence for each law broken, with sample, value and limit; empty: all hold */
 std::vector<std::string> checkSurfaceLaws(const Surface& surface, const std::vector<SurfaceLawSample>& samples,
