@@ -176,5 +176,35 @@ TEST(PathSensitivity, RigidMotionOfEverythingChangesNothing) {
     for (const Vec4& rate : variation.xiRate) EXPECT_LT(rate.norm(), 1e-11);
 }
 
+/** Path error with which a solve of the moved scene begins. */
+double calcFirstError(MixedScene& scene, const std::vector<SpatialVelocity>& V, double h, const PathSolution& start) {
+    PathSolution moved = start;
+    scene.solver.solve(scene.problem, scene.calcMovedPose(V, h), moved);
+    EXPECT_EQ(moved.status, PathStatus::Solved);
+    EXPECT_FALSE(moved.wasCold);
+    return moved.errorHistory.front();
+}
+
+TEST(PathPredictor, MakesTheErrorOfTheGuessSecondOrderInTheStep) {
+    MixedScene scene;
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        const std::vector<SpatialVelocity> V = makeMotion(seed, scene.pose.X_GE.size());
+        PathSensitivity sensitivity;
+        sensitivity.setPath(scene.problem, scene.pose, scene.path);
+        double previousPlain = 0, previousAhead = 0;
+        for (const double h : {4e-3, 2e-3, 1e-3}) {
+            PathSolution ahead = scene.path;
+            ASSERT_TRUE(sensitivity.predictStarts(V, h, ahead));
+            const double plain = calcFirstError(scene, V, h, scene.path), error = calcFirstError(scene, V, h, ahead);
+            EXPECT_LT(error, 0.2 * plain) << "seed " << seed << ", step " << h;
+            if (previousPlain > 0) {
+                EXPECT_NEAR(plain / previousPlain, 0.5, 0.05) << "seed " << seed;
+                EXPECT_NEAR(error / previousAhead, 0.25, 0.05) << "seed " << seed;
+            }
+            previousPlain = plain, previousAhead = error;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tautline

@@ -97,4 +97,14 @@ bool PathSensitivity::calcVariation(const std::vector<SpatialVelocity>& V_GE, Pa
     return true;
 }
 
+bool PathSensitivity::predictStarts(const std::vector<SpatialVelocity>& V_GE, double dt, PathSolution& path) {
+    if (!calcVariation(V_GE, m_prediction)) return false;
+    for (const ChainContact& contact : m_chain.contacts) {
+        ObstacleContact& start = path.contacts[contact.element];
+        start.start = calcCorrectedStart(*m_problem->getElement(contact.element).surface, start.start, start.geodesic.P,
+                                         dt * m_prediction.xiRate[contact.element]);
+    }
+    return true;
+}
+
 }  // namespace tautline

@@ -5,12 +5,14 @@
 #include <sstream>
 
 #include "tautline/contact_switch.h"
+#include "tautline/geodesic_events.h"
 
 namespace tautline {
 namespace {
 
 using Condition = PathVerification::Condition;
 
+constexpr GeodesicOptions kWalking{1e-6, 200};  ///< for looking along an arc whose ends are known exactly
 constexpr double kNeutral = 1e-9;  ///< relative second variation below which a path is neither stable nor unstable
 
 /** True if the arc presses on its surface all along: kappa_n <= 0 at closely spaced points. */
@@ -23,7 +25,7 @@ bool pressesEverywhere(const Surface& surface, const ObstacleContact& contact) {
     from.length /= pieces;
     Geodesic piece;
     for (int i = 1; i < pieces; ++i) {
-        surface.shootGeodesic(from, GeodesicOptions{1e-6, 200}, piece);
+        surface.shootGeodesic(from, kWalking, piece);
         if (piece.Q.kappaN > tolerance) return false;
         from.point = piece.endPoint, from.tangent = piece.Q.t;
     }
@@ -40,8 +42,13 @@ bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSeg
     return surface.calcHeight(A_S + s * e_S, N) < -1e-9 * surface.getSize();
 }
 
+/** The ends tell it for most arcs; along the arc it is asked only of surfaces that have an edge. */
 bool isInDomain(const Surface& surface, const ObstacleContact& contact) {
-    return surface.isInDomain(contact.start.point) && surface.isInDomain(contact.geodesic.endPoint);
+    const double margin =
+        std::min(surface.calcDomainMargin(contact.start.point), surface.calcDomainMargin(contact.geodesic.endPoint));
+    if (!(margin >= 0) || !surface.isInDomain(contact.start.point) || !surface.isInDomain(contact.geodesic.endPoint))
+        return false;
+    return margin == kInfinity || !findDomainExit(surface, contact.start, kWalking);
 }
 
 Condition verifyContact(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
@@ -119,24 +126,55 @@ void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double
 
 }  // namespace
 
+namespace {
+
+/** Where on its arc a touched obstacle breaks a condition, in S. */
+Vec3 findPlaceOnArc(const Surface& surface, const ObstacleContact& contact, Condition condition, bool isAtEnd) {
+    const auto orStart = [&](const std::optional<GeodesicPlace>& place) {
+        return place ? place->point.p : contact.geodesic.P.x;
+    };
+    if (condition == Condition::OutsideDomain) return orStart(findDomainExit(surface, contact.start, kWalking));
+    if (condition == Condition::ConjugatePoint) return orStart(findConjugatePoint(surface, contact.start, kWalking));
+    if (condition == Condition::PullsOutward) {
+        const std::vector<GeodesicPlace> changes = findPressureChanges(surface, contact.start, kWalking);
+        if (!changes.empty()) return changes.front().point.p;
+    }
+    return isAtEnd ? contact.geodesic.Q.x : contact.geodesic.P.x;
+}
+
+/** Where a touched obstacle breaks a condition, in ground. */
+Vec3 findPlace(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact, Condition condition,
+               const StraightSegment& in, const StraightSegment& out) {
+    if (condition == Condition::Penetration) {
+        const StraightSegment& line = meetsOwnSurface(surface, X_GS, in) ? in : out;
+        return line.A +
+               surface.findLowestPoint(X_GS.shiftBack(line.A), X_GS.R.transpose() * line.e, line.length) * line.e;
+    }
+    const bool isAtEnd = condition == Condition::ReversedTangent && in.e.dot(X_GS.R * contact.geodesic.P.t) > 0;
+    return X_GS * findPlaceOnArc(surface, contact, condition, isAtEnd);
+}
+
+}  // namespace
+
 PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     int segmentIn = 0;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const PathElement& element = problem.getElement(e);
         if (element.isPoint() || !pose.hasElement(e)) continue;
         const ObstacleContact& contact = path.contacts[e];
-        Condition condition = Condition::None;
         if (contact.isTouched) {
             while (path.segments[segmentIn].toElement != e) ++segmentIn;
-            condition = verifyContact(*element.surface, pose.X_GE[e], contact, path.segments[segmentIn],
-                                      path.segments[segmentIn + 1]);
+            const StraightSegment &in = path.segments[segmentIn], &out = path.segments[segmentIn + 1];
+            const Condition condition = verifyContact(*element.surface, pose.X_GE[e], contact, in, out);
+            if (condition != Condition::None)
+                return {condition, e, findPlace(*element.surface, pose.X_GE[e], contact, condition, in, out)};
         } else if (!contact.isSwitchedOff && contact.clearance.distance * contact.clearance.scale < kContactTolerance) {
-            condition = Condition::Penetration;
+            return {Condition::Penetration, e, pose.X_GE[e] * contact.clearance.C.p};
         }
-        if (condition != Condition::None) return {condition, e};
     }
     const int unstable = findUnstableContact(problem, pose, path);
-    if (unstable >= 0) return {Condition::Unstable, unstable};
+    if (unstable >= 0)
+        return {Condition::Unstable, unstable, pose.X_GE[unstable] * path.contacts[unstable].geodesic.P.x};
     return {};
 }
 
@@ -217,7 +255,11 @@ std::string explainStatus(const PathProblem& problem, const PathPose& pose, cons
         error << "the path error stays at " << path.pathError;
         text = error.str();
     } else {
-        text = describe(verifyPath(problem, pose, path), problem);
+        const PathVerification verification = verifyPath(problem, pose, path);
+        std::ostringstream place;
+        place << " at (" << verification.place_G.x() << ", " << verification.place_G.y() << ", "
+              << verification.place_G.z() << ")";
+        text = describe(verification, problem) + place.str();
     }
     const int vanishing = findVanishingPressure(problem, path);
     if (path.fault.kind != StringFault::Kind::None)

@@ -31,6 +31,14 @@ public:
     @return false if the Jacobian is singular there (a path on the verge of instability); rates are then zero */
     bool calcVariation(const std::vector<SpatialVelocity>& V_GE, PathVariation& variation);
 
+    /** Moves the starts of the arcs ahead, so that the error of a continued solve begins at second order in the step
+    instead of first.
+    @param V_GE   velocities of the elements at the pose of setPath()
+    @param dt     time to the pose of the next solve [s], of either sign
+    @param path   in: the path of setPath(); out: the start of the next solve
+    @return false, and nothing changed, where calcVariation() fails */
+    bool predictStarts(const std::vector<SpatialVelocity>& V_GE, double dt, PathSolution& path);
+
 private:
     void calcRigidRates(const std::vector<SpatialVelocity>& V_GE);
     void addXiRates(PathVariation& variation);
@@ -42,6 +50,7 @@ private:
     BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
     std::vector<double> m_rates;
     std::vector<Vec3> m_ARate, m_BRate;  ///< of the segments' ends
+    PathVariation m_prediction;
 };
 
 }  // namespace tautline

@@ -19,7 +19,8 @@ struct PathVerification {
         OutsideDomain,    ///< an arc leaves the domain of its surface
     };
     Condition condition = Condition::None;
-    int element = -1;  ///< the obstacle concerned
+    int element = -1;                     ///< the obstacle concerned
+    Vec3 place_G = Vec3::Constant(kNaN);  ///< where on the path, in ground [m]
 
     bool isMinimum() const { return condition == Condition::None; }
 };
