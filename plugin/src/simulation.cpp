@@ -41,13 +41,12 @@ public:
             const Cable& cable = m_paths[i].cable;
             PathSummary& summary = m_result.summaries[i];
             summary.largestPathError = std::max(summary.largestPathError, cable.getPathError(state));
-            const PathStatus status = getStatusOfStep(cable, state);
-            const PathVerification verification = cable.calcVerification(state);
-            if (status == PathStatus::Solved && isSoundBetweenEvents(verification)) continue;
-            if (summary.degradedSteps++ > 0) continue;
+            const PathStatus status = cable.calcStatus(state);
+            if (status == PathStatus::Solved || summary.degradedSteps++ > 0) continue;
             summary.firstDegradation = "at " + std::to_string(state.getTime()) + " s: ";
-            summary.firstDegradation +=
-                status == PathStatus::Solved ? describeFault(cable, verification) : getName(status);
+            summary.firstDegradation += status == PathStatus::NotMinimum
+                                            ? describeFault(cable, cable.calcVerification(state))
+                                            : getName(status);
         }
     }
 
@@ -60,21 +59,6 @@ public:
     }
 
 private:
-    /** Where contact is about to change, an arc may be of rounding length below zero until the event handler
-    has run: the event finder watches exactly that, and it is no fault of the path. */
-    static bool isSoundBetweenEvents(const PathVerification& verification) {
-        return verification.isMinimum() || verification.condition == PathVerification::Condition::NegativeLength;
-    }
-
-    /** While contacts are kept, the path's own status tells only whether the path error vanishes. */
-    static PathStatus getStatusOfStep(const Cable& cable, const State& state) {
-        const auto& contacts = cable.getSolution(state).contacts;
-        const bool hasEndInside = std::any_of(contacts.begin(), contacts.end(),
-                                              [](const ObstacleContact& contact) { return contact.isSwitchedOff; });
-        const PathStatus status = cable.getStatus(state);
-        return status == PathStatus::Solved && hasEndInside ? PathStatus::EndInside : status;
-    }
-
     static std::string describeFault(const Cable& cable, const PathVerification& verification) {
         return "not a minimum at obstacle '" + cable.getElementName(CableElementIndex(verification.element)) + "'";
     }
