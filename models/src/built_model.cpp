@@ -20,8 +20,9 @@ const BuiltModel::CoordinateSlot& BuiltModel::getCoordinateSlot(const std::strin
 
 void BuiltModel::setDefaultPose(SimTK::State& state) const {
     for (const auto& [name, slot] : m_coordinates) {
-        setCoordinate(state, name, slot.defaultValue);
-        setCoordinateSpeed(state, name, slot.defaultSpeed);
+        const auto& motion = slot.prescribedMotion;
+        setCoordinate(state, name, motion ? motion->calcValue(state.getTime()) : slot.defaultValue);
+        setCoordinateSpeed(state, name, motion ? motion->calcDerivative(state.getTime()) : slot.defaultSpeed);
     }
     applyCouplers(state);
 }

@@ -1,5 +1,7 @@
 #include "tautline/models/model_builder.h"
 
+#include <algorithm>
+
 #include "multibody_plan.h"
 
 namespace tautline::models {
@@ -24,6 +26,38 @@ public:
 private:
     ScalarFunction m_function;
 };
+
+/** Drives all coordinates of a mobilizer, each by its own function of time. */
+class DrivenMotion : public SimTK::Motion::Custom::Implementation {
+public:
+    explicit DrivenMotion(std::vector<ScalarFunction> functions) : m_functions(std::move(functions)) {}
+
+    DrivenMotion* clone() const override { return new DrivenMotion(*this); }
+    SimTK::Motion::Level getLevel(const SimTK::State&) const override { return SimTK::Motion::Position; }
+    void calcPrescribedPosition(const SimTK::State& state, int nq, SimTK::Real* q) const override {
+        calcDerivatives(0, state, nq, q);
+    }
+    void calcPrescribedPositionDot(const SimTK::State& state, int nq, SimTK::Real* qdot) const override {
+        calcDerivatives(1, state, nq, qdot);
+    }
+    void calcPrescribedPositionDotDot(const SimTK::State& state, int nq, SimTK::Real* qdotdot) const override {
+        calcDerivatives(2, state, nq, qdotdot);
+    }
+
+private:
+    void calcDerivatives(int order, const SimTK::State& state, int nq, SimTK::Real* values) const {
+        SimTK_ASSERT_ALWAYS(nq == static_cast<int>(m_functions.size()), "DrivenMotion: one function per coordinate");
+        for (int i = 0; i < nq; ++i) values[i] = m_functions[i].calcDerivativeOfOrder(order, state.getTime());
+    }
+
+    std::vector<ScalarFunction> m_functions;
+};
+
+bool isDriven(const Joint& joint) {
+    return !joint.coordinates.empty() &&
+           std::all_of(joint.coordinates.begin(), joint.coordinates.end(),
+                       [](const Coordinate& coordinate) { return coordinate.prescribedMotion && !coordinate.locked; });
+}
 
 /** scale * f(independent) - dependent, to be held at zero. */
 class CouplerFunction : public SimTK::Function {
@@ -115,8 +149,9 @@ public:
         const SimTK::MobilizedBodyIndex index = addMobilizer(planned, inboard).getMobilizedBodyIndex();
         m_built.m_bodies[planned.outboardBody->name] = index;
         for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
-            addCoordinate(joint.coordinates[i], index, static_cast<int>(i));
+            addCoordinate(joint.coordinates[i], index, static_cast<int>(i), isDriven(joint));
         }
+        if (isDriven(joint)) driveMobilizer(joint, index);
     }
 
     void addConstraint(const CoordinateCoupler& coupler) {
@@ -148,7 +183,13 @@ public:
     }
 
 private:
-    void addCoordinate(const Coordinate& coordinate, SimTK::MobilizedBodyIndex body, int index) {
+    void driveMobilizer(const Joint& joint, SimTK::MobilizedBodyIndex body) {
+        std::vector<ScalarFunction> functions;
+        for (const Coordinate& coordinate : joint.coordinates) functions.push_back(*coordinate.prescribedMotion);
+        SimTK::Motion::Custom(m_matter.updMobilizedBody(body), new DrivenMotion(std::move(functions)));
+    }
+
+    void addCoordinate(const Coordinate& coordinate, SimTK::MobilizedBodyIndex body, int index, bool isDriven) {
         BuiltModel::CoordinateSlot slot;
         slot.body = body;
         slot.q = SimTK::MobilizerQIndex(index);
@@ -163,10 +204,12 @@ private:
             SimTK::Constraint::ConstantCoordinate lock(m_matter.updMobilizedBody(body), slot.q,
                                                        coordinate.defaultValue);
             slot.lock = lock.getConstraintIndex();
-        } else if (coordinate.prescribedMotion) {
+        } else if (coordinate.prescribedMotion && !isDriven) {
+            // A Motion drives a mobilizer as a whole; a coordinate among free ones needs a constraint.
             SimTK::Constraint::PrescribedMotion(m_matter, new SimtkFunction(*coordinate.prescribedMotion), body,
                                                 slot.q);
         }
+        if (!coordinate.locked) slot.prescribedMotion = coordinate.prescribedMotion;
         m_built.m_coordinates[coordinate.name] = slot;
     }
 

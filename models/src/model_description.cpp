@@ -29,6 +29,10 @@ const Muscle* findMuscle(const ModelDescription& model, const std::string& name)
     return findByName(model.muscles, name);
 }
 
+const PathSpring* findSpring(const ModelDescription& model, const std::string& name) {
+    return findByName(model.springs, name);
+}
+
 const WrapObject* findWrapObject(const ModelDescription& model, const std::string& name) {
     return findByName(model.wrapObjects, name);
 }

@@ -1,5 +1,6 @@
 #include "tautline/models/model_system.h"
 
+#include <algorithm>
 #include <set>
 
 #include "tautline/error.h"
@@ -29,11 +30,53 @@ struct BindingSystem {
     SimTK::State state;
 };
 
-SimTK::Vec3 getFixedStation(const ModelDescription& description, const Muscle& muscle, const PathPoint& point) {
-    if (!std::holds_alternative<FixedLocation>(point.kind))
-        throw ModelError(locate(description, point.line) + "muscle '" + muscle.name + "': point '" + point.name +
-                         "' moves with or depends on a coordinate, which a simulated path cannot do yet");
-    return toVec3(point.location);
+/** Where a moving point is on its body, its coordinate clipped to the range: past it the point rests. */
+std::shared_ptr<const MovingStation> makeStation(const MovingLocation& moving, const BuiltModel& model) {
+    const BuiltModel::CoordinateSlot& slot = model.getCoordinateSlot(moving.coordinate);
+    const SimTK::Transform X_BF = toTransform(moving.X_BF);
+    const auto calcLocation = [location_F = moving.location_F](int order, double q) {
+        SimTK::Vec3 result;
+        for (int i = 0; i < 3; ++i) result[i] = location_F[i].calcDerivativeOfOrder(order, q);
+        return result;
+    };
+    const std::array<double, 2> range = slot.range;
+    return std::make_shared<CoordinateStation>(
+        model.getMatter().getMobilizedBody(slot.body), slot.q, slot.u,
+        [=](double q) { return X_BF * calcLocation(0, std::clamp(q, range[0], range[1])); },
+        [=](double q) { return q < range[0] || q > range[1] ? SimTK::Vec3(0) : X_BF.R() * calcLocation(1, q); });
+}
+
+std::function<bool(const SimTK::State&)> makeCondition(const PathPoint& point, const BuiltModel& model) {
+    return [point, model](const SimTK::State& state) { return isPointActive(point, model, state); };
+}
+
+/** A cable between the ends of a path. */
+Cable makeCable(CableSubsystem& cables, const ModelDescription& description, const std::string& owner,
+                const std::string& name, const MusclePath& path, const BuiltModel& model) {
+    const PathPoint &first = path.points.front(), &last = path.points.back();
+    for (const PathPoint* end : {&first, &last})
+        if (std::holds_alternative<ConditionalLocation>(end->kind))
+            throw ModelError(locate(description, end->line) + owner + ": point '" + end->name +
+                             "' is an end of the path and conditional, which a simulated path cannot do");
+    const auto getStation = [](const PathPoint& end) {
+        return std::holds_alternative<FixedLocation>(end.kind) ? toVec3(end.location) : SimTK::Vec3(0);
+    };
+    Cable cable(cables, model.getBody(first.body), getStation(first), model.getBody(last.body), getStation(last), name);
+    if (const auto* moving = std::get_if<MovingLocation>(&first.kind))
+        cable.setMovingOrigin(makeStation(*moving, model));
+    if (const auto* moving = std::get_if<MovingLocation>(&last.kind))
+        cable.setMovingInsertion(makeStation(*moving, model));
+    return cable;
+}
+
+void addPoint(Cable& cable, const PathPoint& point, const BuiltModel& model) {
+    const SimTK::MobilizedBody& body = model.getBody(point.body);
+    if (const auto* moving = std::get_if<MovingLocation>(&point.kind))
+        cable.addMovingPoint(body, makeStation(*moving, model), point.name);
+    else if (std::holds_alternative<ConditionalLocation>(point.kind))
+        cable.addConditionalPoint(body, toVec3(point.location), makeCondition(point, model), point.name);
+    else
+        cable.addViaPoint(body, toVec3(point.location), point.name);
 }
 
 }  // namespace
@@ -67,27 +110,33 @@ ModelSystem::ModelSystem(const ModelDescription& description)
         const std::vector<BoundWrap> wraps = bindWraps(description, muscle.path, binding.model, binding.state);
         addMuscle(description, muscle, wraps);
     }
+    for (const PathSpring& spring : description.springs)
+        addSpring(description, spring, bindWraps(description, spring.path, binding.model, binding.state));
+}
+
+Cable ModelSystem::addCable(const ModelDescription& description, const std::string& kind, const std::string& name,
+                            const MusclePath& path, const std::vector<BoundWrap>& wraps) {
+    const std::string owner = kind + " '" + name + "'";
+    const std::vector<PathPoint>& points = path.points;
+    Cable cable = makeCable(m_cables, description, owner, name, path, m_model);
+    std::size_t next = 0;
+    for (std::size_t p = 0; p + 1 < points.size(); ++p) {
+        if (p > 0) addPoint(cable, points[p], m_model);
+        for (; next < wraps.size() && wraps[next].segment == p; ++next) {
+            const WrapObject& object = description.wrapObjects[path.wraps[wraps[next].wrap].wrapObject];
+            cable.addObstacle(m_model.getBody(object.body), toTransform(object.X_BW), makeSurface(object),
+                              wraps[next].hint_W, object.name);
+        }
+    }
+    return cable;
 }
 
 void ModelSystem::addMuscle(const ModelDescription& description, const Muscle& muscle,
                             const std::vector<BoundWrap>& wraps) {
-    const std::vector<PathPoint>& points = muscle.path.points;
     MuscleSlot slot;
     slot.name = muscle.name, slot.path = "/forceset/" + muscle.name, slot.wraps = wraps;
-    slot.cable =
-        Cable(m_cables, m_model.getBody(points.front().body), getFixedStation(description, muscle, points.front()),
-              m_model.getBody(points.back().body), getFixedStation(description, muscle, points.back()), muscle.name);
-    std::size_t next = 0;
-    for (std::size_t p = 0; p + 1 < points.size(); ++p) {
-        if (p > 0)
-            slot.cable.addViaPoint(m_model.getBody(points[p].body), getFixedStation(description, muscle, points[p]),
-                                   points[p].name);
-        for (; next < wraps.size() && wraps[next].segment == p; ++next) {
-            const WrapObject& object = description.wrapObjects[muscle.path.wraps[wraps[next].wrap].wrapObject];
-            slot.cable.addObstacle(m_model.getBody(object.body), toTransform(object.X_BW), makeSurface(object),
-                                   wraps[next].hint_W, object.name);
-        }
-    }
+    slot.cable = addCable(description, "muscle", muscle.name, muscle.path, wraps);
+    slot.start = makePathStart(muscle.path, wraps, slot.cable);
     try {
         slot.muscle = HillMuscle(m_forces, slot.cable, toHillMuscleParameters(muscle));
     } catch (const InvalidInput& error) {
@@ -97,6 +146,26 @@ void ModelSystem::addMuscle(const ModelDescription& description, const Muscle& m
     m_muscles.push_back(std::move(slot));
 }
 
+void ModelSystem::addSpring(const ModelDescription& description, const PathSpring& spring,
+                            const std::vector<BoundWrap>& wraps) {
+    SpringSlot slot;
+    slot.name = spring.name, slot.path = "/forceset/" + spring.name, slot.wraps = wraps;
+    slot.cable = addCable(description, "path spring", spring.name, spring.path, wraps);
+    slot.start = makePathStart(spring.path, wraps, slot.cable);
+    slot.spring = ElasticStringForce(m_forces, slot.cable, spring.restingLength, spring.stiffness, spring.dissipation);
+    if (!spring.appliesForce) slot.spring.setDisabledByDefault(true);
+    m_springs.push_back(std::move(slot));
+}
+
+std::vector<ModelSystem::PathView> ModelSystem::getPaths() const {
+    std::vector<PathView> paths;
+    for (const MuscleSlot& slot : m_muscles)
+        paths.push_back({slot.name, slot.path, slot.cable, slot.muscle, slot.wraps, slot.start});
+    for (const SpringSlot& slot : m_springs)
+        paths.push_back({slot.name, slot.path, slot.cable, slot.spring, slot.wraps, slot.start});
+    return paths;
+}
+
 SimTK::State ModelSystem::makeDefaultState() {
     SimTK::State state = m_system.realizeTopology();
     m_system.realizeModel(state);
@@ -104,16 +173,15 @@ SimTK::State ModelSystem::makeDefaultState() {
     return state;
 }
 
-double ModelSystem::calcMomentArm(const SimTK::State& state, const MuscleSlot& muscle,
-                                  const std::string& coordinate) const {
+double ModelSystem::calcMomentArm(const SimTK::State& state, const Cable& cable, const std::string& coordinate) const {
     const auto& slot = m_model.getCoordinateSlot(coordinate);
-    double arm = muscle.cable.calcMomentArm(state, slot.body, slot.u);
+    double arm = cable.calcMomentArm(state, slot.body, slot.u);
     const double q = m_model.getCoordinate(state, coordinate);
     for (const CoordinateCoupler& coupler : m_couplers) {
         if (coupler.independentCoordinate != coordinate) continue;
         const auto& dependent = m_model.getCoordinateSlot(coupler.dependentCoordinate);
         const double slope = coupler.scaleFactor * coupler.function.calcDerivative(q);
-        arm += slope * muscle.cable.calcMomentArm(state, dependent.body, dependent.u);
+        arm += slope * cable.calcMomentArm(state, dependent.body, dependent.u);
     }
     return arm;
 }

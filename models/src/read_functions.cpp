@@ -23,10 +23,17 @@ ScalarFunction readMultiplier(Element element, int depth) {
     return inner->scaledBy(element.getNumberOr("scale", 1.0));
 }
 
+/** Each number is 1, 1, 0, 0 where the file leaves it out. */
+ScalarFunction readSine(Element element) {
+    return ScalarFunction::sine(element.getNumberOr("amplitude", 1.0), element.getNumberOr("omega", 1.0),
+                                element.getNumberOr("phase", 0.0), element.getNumberOr("offset", 0.0));
+}
+
 ScalarFunction readKnown(Element& element, int depth) {
     const std::string tag = element.getTag();
     if (tag == "Constant") return ScalarFunction::constant(element.getNumberOr("value", 0.0));
     if (tag == "LinearFunction") return readLinear(element);
+    if (tag == "Sine") return readSine(element);
     if (tag == "MultiplierFunction") return readMultiplier(element, depth);
     if (tag == "PolynomialFunction") {
         return ScalarFunction::polynomial(element.require("coefficients").getNumbers());
@@ -42,7 +49,8 @@ ScalarFunction readKnown(Element& element, int depth) {
 }
 
 void refuseUnknownParts(Element element) {
-    for (const char* tag : {"value", "coefficients", "function", "scale", "x", "y"}) {
+    for (const char* tag :
+         {"value", "coefficients", "function", "scale", "x", "y", "amplitude", "omega", "phase", "offset"}) {
         element.acceptTag(tag);
     }
     element.refuseUnknown();

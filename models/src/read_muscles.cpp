@@ -101,6 +101,18 @@ std::array<int, 2> readWrapRange(Element& element, std::size_t points) {
     return {static_cast<int>(ends[0]), static_cast<int>(ends[1])};
 }
 
+WrapStart readWrapStart(Element element) {
+    WrapStart start;
+    start.line = element.findLine();
+    start.point = element.require("point").getTriple();
+    const Element direction = element.require("direction");
+    start.direction = direction.getTriple();
+    if (start.direction == Triple{}) direction.fail("the " + direction.describeField() + " is zero");
+    start.length = element.requirePositive("length");
+    element.refuseUnknown();
+    return start;
+}
+
 PathWrap readPathWrap(Element element, std::size_t points) {
     if (element.getTag() != "PathWrap") element.fail("unknown path wrap " + element.describe());
     PathWrap wrap;
@@ -109,6 +121,8 @@ PathWrap readPathWrap(Element element, std::size_t points) {
     wrap.wrapObject = resolveWrapObject(element.require("wrap_object"));
     wrap.method = readMethod(element);
     wrap.range = readWrapRange(element, points);
+    if (const Element hint = element.find("tautline_hint")) wrap.hint = hint.getTriple();
+    if (const Element start = element.find("tautline_start")) wrap.start = readWrapStart(start);
     element.refuseUnknown();
     return wrap;
 }
@@ -126,6 +140,7 @@ MusclePath readPath(Element element, const std::string& owner, const FrameTable&
             path.wraps.push_back(readPathWrap(wrap, path.points.size()));
         }
     }
+    path.areWrapsInOrder = element.getBoolOr("tautline_wraps_in_order", false);
     element.skip({"Appearance", "VisibleObject", "display_preference", "default_color"}, "only drawn");
     element.refuseUnknown();
     return path;
@@ -168,20 +183,50 @@ void skipMuscleDetails(Element& element) {
                  "the muscle model has its own curves: forces will differ");
 }
 
+MusclePath readOwnedPath(Element& owner, const FrameTable& frames) {
+    for (const char* tag : {"Scholz2015GeometryPath", "FunctionBasedPath"}) {
+        if (const Element other = owner.find(tag)) {
+            other.fail("unknown path " + other.describe() + " of " + owner.describe());
+        }
+    }
+    return readPath(owner.require("GeometryPath"), owner.describe(), frames);
+}
+
+/** Results name muscles and springs alike. */
+void checkUnique(const Element& element, const std::string& name) {
+    const auto& model = element.updReading().model;
+    if (findMuscle(model, name)) element.fail("a second muscle '" + name + "'");
+    if (findSpring(model, name)) element.fail("a second path spring '" + name + "'");
+}
+
+void readSpring(Element& element, const FrameTable& frames) {
+    PathSpring spring;
+    spring.name = element.getRequiredName();
+    spring.line = element.findLine();
+    checkUnique(element, spring.name);
+    spring.appliesForce = readAppliesForce(element);
+    spring.path = readOwnedPath(element, frames);
+    spring.restingLength = element.requirePositive("resting_length");
+    spring.stiffness = element.requirePositive("stiffness");
+    const Element dissipation = element.require("dissipation");
+    spring.dissipation = dissipation.getNumber();
+    if (spring.dissipation < 0.0) {
+        dissipation.fail("negative dissipation " + dissipation.getText() + " of " + element.describe());
+    }
+    element.skip({"optimal_force", "min_control", "max_control"}, "of a spring without meaning");
+    element.refuseUnknown();
+    element.updReading().model.springs.push_back(std::move(spring));
+}
+
 void readMuscle(Element& element, const FrameTable& frames) {
     Muscle muscle;
     muscle.name = element.getRequiredName();
     muscle.type = element.getTag();
     muscle.line = element.findLine();
     auto& model = element.updReading().model;
-    if (findMuscle(model, muscle.name)) element.fail("a second muscle '" + muscle.name + "'");
+    checkUnique(element, muscle.name);
     muscle.appliesForce = readAppliesForce(element);
-    for (const char* tag : {"Scholz2015GeometryPath", "FunctionBasedPath"}) {
-        if (const Element other = element.find(tag)) {
-            other.fail("unknown path " + other.describe() + " of " + element.describe());
-        }
-    }
-    muscle.path = readPath(element.require("GeometryPath"), element.describe(), frames);
+    muscle.path = readOwnedPath(element, frames);
     readFibers(element, muscle);
     readShapeFactors(element, muscle);
     skipMuscleDetails(element);
@@ -193,6 +238,8 @@ void readForce(Element element, const FrameTable& frames) {
     const std::string tag = element.getTag();
     if (tag == "Thelen2003Muscle" || tag == "Millard2012EquilibriumMuscle") {
         readMuscle(element, frames);
+    } else if (tag == "PathSpring") {
+        readSpring(element, frames);
     } else if (tag == "CoordinateActuator" || tag == "PointActuator" || tag == "TorqueActuator") {
         element.skipThis("ForceSet", "gives no force while no controller drives it");
     } else {

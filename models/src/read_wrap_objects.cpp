@@ -38,6 +38,27 @@ TorusShape readTorus(Element& element) {
     return shape;
 }
 
+ParaboloidShape readParaboloid(Element& element) {
+    return {element.requirePositive("a"), element.requirePositive("b")};
+}
+
+EllipticTorusShape readEllipticTorus(Element& element) {
+    const EllipticTorusShape shape{element.requirePositive("ring_radius"), element.requirePositive("radial_semi_axis"),
+                                   element.requirePositive("axial_semi_axis")};
+    if (shape.radialSemiAxis >= shape.ringRadius) element.fail(element.describe() + " has no hole");
+    return shape;
+}
+
+SurfaceForm readForm(Element& element) {
+    const Element child = element.find("tautline_form");
+    if (!child || child.getText() == "implicit") return SurfaceForm::Implicit;
+    if (child.getText() != "parametric") {
+        child.fail("unknown tautline_form '" + child.getText() + "' of " + element.describe() +
+                   ": implicit or parametric");
+    }
+    return SurfaceForm::Parametric;
+}
+
 void readShape(Element& element, WrapObject& wrap) {
     const std::string tag = element.getTag();
     if (tag == "WrapCylinder") {
@@ -48,6 +69,10 @@ void readShape(Element& element, WrapObject& wrap) {
         wrap.shape = readEllipsoid(element);
     } else if (tag == "WrapTorus") {
         wrap.shape = readTorus(element);
+    } else if (tag == "TautlineWrapParaboloid") {
+        wrap.shape = readParaboloid(element);
+    } else if (tag == "TautlineWrapEllipticTorus") {
+        wrap.shape = readEllipticTorus(element);
     } else {
         element.fail("unknown wrap object " + element.describe());
     }
@@ -67,6 +92,7 @@ void readWrapObject(Element element, const BodyFrame& owner) {
     wrap.line = element.findLine();
     wrap.body = owner.body;
     readShape(element, wrap);
+    wrap.form = readForm(element);
     const Triple translation = element.getTripleOr("translation", {});
     const Triple rotation = element.getTripleOr("xyz_body_rotation", {});
     wrap.X_BW = compose(owner.X_BF, makeRigidOffset(translation, rotation));

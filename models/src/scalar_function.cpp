@@ -145,6 +145,13 @@ ScalarFunction ScalarFunction::simmSpline(std::vector<double> x, std::vector<dou
     return function;
 }
 
+ScalarFunction ScalarFunction::sine(double amplitude, double omega, double phase, double offset) {
+    requireFinite({amplitude, omega, phase, offset});
+    ScalarFunction function;
+    function.m_form = Wave{amplitude, omega, phase, offset};
+    return function;
+}
+
 ScalarFunction ScalarFunction::scaledBy(double factor) const {
     if (!std::isfinite(factor)) throw std::invalid_argument("a number is not finite");
     ScalarFunction scaled = *this;
@@ -156,12 +163,14 @@ double ScalarFunction::calcDerivativeOfOrder(int order, double x) const {
     if (const auto* polynomial = std::get_if<Polynomial>(&m_form)) {
         return m_factor * calcPolynomial(*polynomial, order, x);
     }
+    if (const auto* wave = std::get_if<Wave>(&m_form)) return m_factor * calcWave(*wave, order, x);
     return m_factor * calcCubics(std::get<Cubics>(m_form), order, x);
 }
 
 bool ScalarFunction::isConstant() const {
     const auto* polynomial = std::get_if<Polynomial>(&m_form);
     if (m_factor == 0.0) return true;
+    if (const auto* wave = std::get_if<Wave>(&m_form)) return wave->amplitude == 0.0 || wave->omega == 0.0;
     if (!polynomial) return false;
     const auto& coefficients = polynomial->coefficients;
     return std::all_of(coefficients.begin(), coefficients.end() - 1,
@@ -177,6 +186,12 @@ double ScalarFunction::calcPolynomial(const Polynomial& polynomial, int order, d
         value = value * x + coefficient;
     }
     return order == 0 ? value : order == 1 ? slope : 2 * half;
+}
+
+double ScalarFunction::calcWave(const Wave& wave, int order, double x) {
+    const double angle = wave.omega * x + wave.phase, slope = wave.amplitude * wave.omega;
+    if (order == 0) return wave.amplitude * std::sin(angle) + wave.offset;
+    return order == 1 ? slope * std::cos(angle) : -slope * wave.omega * std::sin(angle);
 }
 
 double ScalarFunction::calcCubics(const Cubics& cubics, int order, double x) {

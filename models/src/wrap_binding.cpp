@@ -4,12 +4,13 @@
 #include <cmath>
 #include <random>
 
-#include "tautline/cylinder.h"
-#include "tautline/ellipsoid.h"
 #include "tautline/models/path_points.h"
+#include "tautline/paraboloid.h"
+#include "tautline/parametric_cylinder.h"
+#include "tautline/parametric_ellipsoid.h"
+#include "tautline/parametric_sphere.h"
+#include "tautline/parametric_torus.h"
 #include "tautline/simbody/conversions.h"
-#include "tautline/sphere.h"
-#include "tautline/torus.h"
 
 namespace tautline::models {
 
@@ -19,6 +20,8 @@ namespace {
 constexpr int numSampledPoses = 60;
 /** Of a coordinate without limits: as far as it is sampled to either side of its default. */
 constexpr double unboundedRange = 1.0;
+/** Of a driven coordinate, the time over which its motion is sampled [s]. */
+constexpr double sampledTime = 10.0;
 
 /** A straight segment of a path seen from a wrap object. */
 struct SegmentInObject {
@@ -93,7 +96,8 @@ std::vector<SimTK::Vec3> calcPointLocations(const MusclePath& path, const BuiltM
     return points_G;
 }
 
-/** Moves every free coordinate to a place in its range; the same sequence at each call of bindWraps(). */
+/** Moves every free coordinate to a place in its range, a driven one to a place of its motion; the same sequence at
+ * each call of bindWraps(). */
 void setRandomPose(const BuiltModel& model, std::mt19937& random, SimTK::State& state) {
     for (const std::string& name : model.getCoordinateNames()) {
         const auto& slot = model.getCoordinateSlot(name);
@@ -101,12 +105,48 @@ void setRandomPose(const BuiltModel& model, std::mt19937& random, SimTK::State& 
         const double share = random() / static_cast<double>(std::mt19937::max());
         const double low = std::isfinite(slot.range[0]) ? slot.range[0] : slot.defaultValue - unboundedRange;
         const double high = std::isfinite(slot.range[1]) ? slot.range[1] : slot.defaultValue + unboundedRange;
-        if (!slot.locked) model.setCoordinate(state, name, low + share * (high - low));
+        if (slot.prescribedMotion)
+            model.setCoordinate(state, name, slot.prescribedMotion->calcValue(share * sampledTime));
+        else if (!slot.locked)
+            model.setCoordinate(state, name, low + share * (high - low));
     }
     model.applyCouplers(state);
 }
 
-std::optional<SimTK::Vec3> makeHint(const WrapObject& object, const Surface& surface, const SegmentInObject& segment) {
+using SurfacePointer = std::shared_ptr<const Surface>;
+
+struct ImplicitMaker {
+    SurfacePointer operator()(const CylinderShape& s) { return std::make_shared<Cylinder>(s.radius); }
+    SurfacePointer operator()(const SphereShape& s) { return std::make_shared<Sphere>(s.radius); }
+    SurfacePointer operator()(const EllipsoidShape& s) {
+        return std::make_shared<Ellipsoid>(Vec3(s.semiAxes[0], s.semiAxes[1], s.semiAxes[2]));
+    }
+    SurfacePointer operator()(const TorusShape& s) { return std::make_shared<Torus>(s.ringRadius, s.tubeRadius); }
+    SurfacePointer operator()(const ParaboloidShape& s) { return std::make_shared<Paraboloid>(s.a, s.b); }
+    SurfacePointer operator()(const EllipticTorusShape& s) {
+        return std::make_shared<EllipticTorus>(s.ringRadius, s.radialSemiAxis, s.axialSemiAxis);
+    }
+};
+
+struct ParametricMaker {
+    SurfacePointer operator()(const CylinderShape& s) { return std::make_shared<ParametricCylinder>(s.radius); }
+    SurfacePointer operator()(const SphereShape& s) { return std::make_shared<ParametricSphere>(s.radius); }
+    SurfacePointer operator()(const EllipsoidShape& s) {
+        return std::make_shared<ParametricEllipsoid>(Vec3(s.semiAxes[0], s.semiAxes[1], s.semiAxes[2]));
+    }
+    SurfacePointer operator()(const TorusShape& s) {
+        return std::make_shared<ParametricTorus>(s.ringRadius, s.tubeRadius);
+    }
+    SurfacePointer operator()(const ParaboloidShape& s) { return std::make_shared<ParametricParaboloid>(s.a, s.b); }
+    SurfacePointer operator()(const EllipticTorusShape& s) {
+        return std::make_shared<ParametricEllipticTorus>(s.ringRadius, s.radialSemiAxis, s.axialSemiAxis);
+    }
+};
+
+std::optional<SimTK::Vec3> makeHint(const WrapObject& object, const PathWrap& wrap, const Surface& surface,
+                                    const SegmentInObject& segment) {
+    if (wrap.hint) return toVec3(*wrap.hint);
+    if (wrap.start) return toVec3(wrap.start->point);
     const Vec3 side = getActiveSide(object.quadrant);
     if (side.isZero()) return std::nullopt;
     Vec3 beside = 10 * surface.getSize() * side;
@@ -117,19 +157,8 @@ std::optional<SimTK::Vec3> makeHint(const WrapObject& object, const Surface& sur
 }  // namespace
 
 std::shared_ptr<const Surface> makeSurface(const WrapObject& object) {
-    struct Maker {
-        std::shared_ptr<const Surface> operator()(const CylinderShape& s) {
-            return std::make_shared<Cylinder>(s.radius);
-        }
-        std::shared_ptr<const Surface> operator()(const SphereShape& s) { return std::make_shared<Sphere>(s.radius); }
-        std::shared_ptr<const Surface> operator()(const EllipsoidShape& s) {
-            return std::make_shared<Ellipsoid>(Vec3(s.semiAxes[0], s.semiAxes[1], s.semiAxes[2]));
-        }
-        std::shared_ptr<const Surface> operator()(const TorusShape& s) {
-            return std::make_shared<Torus>(s.ringRadius, s.tubeRadius);
-        }
-    };
-    return std::visit(Maker(), object.shape);
+    return object.form == SurfaceForm::Parametric ? std::visit(ParametricMaker(), object.shape)
+                                                  : std::visit(ImplicitMaker(), object.shape);
 }
 
 std::vector<BoundWrap> bindWraps(const ModelDescription& description, const MusclePath& path, const BuiltModel& model,
@@ -160,7 +189,7 @@ std::vector<BoundWrap> bindWraps(const ModelDescription& description, const Musc
             }
         }
         BoundWrap wrap;
-        wrap.wrap = w, wrap.segment = first;
+        wrap.wrap = w, wrap.segment = first, wrap.form = object.form;
         int total = 0;
         for (std::size_t s = first; s <= last; ++s) {
             total += engaged[s];
@@ -171,11 +200,12 @@ std::vector<BoundWrap> bindWraps(const ModelDescription& description, const Musc
         const SegmentInObject& segment = atDefault[wrap.segment];
         wrap.numEngaged = engaged[wrap.segment], wrap.numElsewhere = total - wrap.numEngaged;
         wrap.place = segment.length > 0 ? std::clamp(-segment.A.dot(segment.e) / segment.length, 0.0, 1.0) : 0.0;
-        wrap.hint_W = makeHint(object, *surface, segment);
+        wrap.hint_W = makeHint(object, path.wraps[w], *surface, segment);
         bound.push_back(wrap);
     }
-    std::stable_sort(bound.begin(), bound.end(), [](const BoundWrap& a, const BoundWrap& b) {
-        return a.segment != b.segment ? a.segment < b.segment : a.place < b.place;
+    const bool isListed = path.areWrapsInOrder;
+    std::stable_sort(bound.begin(), bound.end(), [isListed](const BoundWrap& a, const BoundWrap& b) {
+        return a.segment != b.segment ? a.segment < b.segment : !isListed && a.place < b.place;
     });
     return bound;
 }

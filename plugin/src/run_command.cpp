@@ -1,5 +1,6 @@
 #include "run_command.h"
 
+#include "plots.h"
 #include "run_report.h"
 #include "simulation.h"
 #include "tautline/models/osim_reader.h"
@@ -22,6 +23,7 @@ void RunCommand::declare(CLI::App& app) {
         ->check(CLI::Range(1e-14, 0.1))
         ->capture_default_str();
     app.add_flag("--allow-degraded", allowsDegraded, "exit with 0 even if some steps had no verified shortest path");
+    app.add_flag("--plot", drawsCurves, "draw the results with gnuplot: a picture (.svg) of each path's curves");
 }
 
 int RunCommand::run(std::ostream& out, bool isTerminal) const {
@@ -35,6 +37,7 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
     if (numDefault > 0)
         out << "excitation: " << kDefaultExcitation << " for "
             << (numDefault == static_cast<int>(names.size()) ? "all " : "") << numDefault << " muscles\n";
+    if (drawsCurves) requireGnuplot();
     std::filesystem::create_directories(outFolder);
 
     ProgressBar bar(out, isTerminal);
@@ -43,12 +46,19 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
     bar.clear();
     writeStorage(result.states, outFolder / "states.sto");
     writeStorage(result.paths, outFolder / "paths.sto");
+    writeStorage(result.clearances, outFolder / "clearances.sto");
     writeWhole(result.events, outFolder / "events.csv");
+    if (!result.starts.empty()) writeWhole(result.starts, outFolder / "start.csv");
     printRunTable(model, result, out);
     out << "results: " << (outFolder / "states.sto").string() << ", " << (outFolder / "paths.sto").string() << ", "
-        << (outFolder / "events.csv").string() << "\n";
+        << (outFolder / "clearances.sto").string() << ", " << (outFolder / "events.csv").string();
+    if (!result.starts.empty()) out << ", " << (outFolder / "start.csv").string();
+    out << "\n";
+    if (drawsCurves)
+        for (const std::filesystem::path& picture : drawCurves(model, result, outFolder))
+            out << "curves: " << picture.string() << "\n";
 
-    for (const MuscleSummary& summary : result.muscles)
+    for (const PathSummary& summary : result.summaries)
         if (summary.degradedSteps > 0 && !allowsDegraded) return 3;
     return 0;
 }

@@ -8,12 +8,14 @@
 
 namespace tautline {
 
-/** `tautline run`: simulates a model file and writes states.sto, paths.sto and events.csv. */
+/** `tautline run`: simulates a model file and writes states.sto, paths.sto, clearances.sto and events.csv, start.csv
+if the model gives geodesics to start from, and pictures if asked for. */
 struct RunCommand {
     std::filesystem::path modelFile, outFolder = "results";
     ExcitationOptions excitations;
     SimulationOptions simulation;
     bool allowsDegraded = false;
+    bool drawsCurves = false;
 
     /** Declares the options in a subcommand. */
     void declare(CLI::App& app);

@@ -17,8 +17,9 @@ std::string format(double value, int digits, bool isScientific = false) {
 
 void printModelNotes(const models::ModelDescription& description, const models::ModelSystem& model, std::ostream& out) {
     out << description.fileName << ": model '" << description.name << "', " << description.bodies.size() << " bodies, "
-        << model.getModel().getCoordinateNames().size() << " coordinates, " << description.muscles.size()
-        << " muscles\n";
+        << model.getModel().getCoordinateNames().size() << " coordinates, " << description.muscles.size() << " muscles";
+    if (!description.springs.empty()) out << ", " << description.springs.size() << " path springs";
+    out << "\n";
     if (!description.skipped.empty()) {
         out << "skipped, without effect on the motion:";
         const char* separator = " ";
@@ -33,7 +34,7 @@ void printModelNotes(const models::ModelDescription& description, const models::
     for (const models::Muscle& muscle : description.muscles) types.insert(muscle.type);
     for (const std::string& type : types)
         out << type << ": run through Tautline's first Hill-type muscle (rigid tendon), with the file's parameters\n";
-    for (const auto& slot : model.getMuscles())
+    for (const auto& slot : model.getPaths())
         for (const models::BoundWrap& wrap : slot.wraps)
             if (wrap.numElsewhere > 0)
                 out << "note: " << slot.name << ": wrap " << wrap.wrap + 1 << " engages on segment " << wrap.segment + 1
@@ -42,34 +43,35 @@ void printModelNotes(const models::ModelDescription& description, const models::
 }
 
 void printRunTable(const models::ModelSystem& model, const SimulationResult& result, std::ostream& out) {
+    const auto paths = model.getPaths();
     std::size_t width = 6;
-    for (const auto& slot : model.getMuscles()) width = std::max(width, slot.name.size());
+    for (const auto& slot : paths) width = std::max(width, slot.name.size());
     const int name = static_cast<int>(width) + 2;
-    out << std::left << std::setw(name) << "muscle" << std::right << std::setw(10) << "length" << std::setw(10)
-        << "rate" << std::setw(10) << "tension" << std::setw(13) << "path error" << std::setw(7) << "made"
-        << std::setw(7) << "lost" << std::setw(12) << "iterations" << std::setw(10) << "degraded"
+    out << std::left << std::setw(name) << "path" << std::right << std::setw(10) << "length" << std::setw(10) << "rate"
+        << std::setw(10) << "tension" << std::setw(13) << "path error" << std::setw(7) << "made" << std::setw(7)
+        << "lost" << std::setw(12) << "iterations" << std::setw(10) << "degraded"
         << "\n"
         << std::left << std::setw(name) << "" << std::right << std::setw(10) << "[m]" << std::setw(10) << "[m/s]"
         << std::setw(10) << "[N]" << std::setw(13) << "largest" << std::setw(14) << "contacts" << std::setw(12) << ""
         << std::setw(10) << "steps"
         << "\n";
-    for (std::size_t i = 0; i < model.getMuscles().size(); ++i) {
-        const auto& slot = model.getMuscles()[i];
-        const MuscleSummary& summary = result.muscles[i];
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const auto& slot = paths[i];
+        const PathSummary& summary = result.summaries[i];
         out << std::left << std::setw(name) << slot.name << std::right << std::setw(10)
             << format(slot.cable.getLength(result.finalState), 5) << std::setw(10)
             << format(slot.cable.getLengthRate(result.finalState), 5) << std::setw(10)
-            << format(slot.muscle.getTension(result.finalState), 3) << std::setw(13)
+            << format(slot.force.getTension(result.finalState), 3) << std::setw(13)
             << format(summary.largestPathError, 1, true) << std::setw(7) << summary.contactsMade << std::setw(7)
             << summary.contactsLost << std::setw(12) << slot.cable.getStatistics().numIterations << std::setw(10)
             << summary.degradedSteps << "\n";
     }
     out << result.acceptedSteps << " steps, " << format(result.seconds, 3) << " s, of which "
         << format(100 * result.wrappingSeconds / std::max(result.seconds, 1e-9), 1) << " % in wrapping\n";
-    for (std::size_t i = 0; i < result.muscles.size(); ++i)
-        if (result.muscles[i].degradedSteps > 0)
-            out << "warning: " << model.getMuscles()[i].name << ": " << result.muscles[i].degradedSteps
-                << " steps without a verified minimum; first " << result.muscles[i].firstDegradation << "\n";
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        if (result.summaries[i].degradedSteps > 0)
+            out << "warning: " << paths[i].name << ": " << result.summaries[i].degradedSteps
+                << " steps without a verified minimum; first " << result.summaries[i].firstDegradation << "\n";
 }
 
 void ProgressBar::show(double share) {

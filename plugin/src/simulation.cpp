@@ -1,9 +1,10 @@
 #include "simulation.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
+
+#include "tautline/models/path_clearance.h"
 
 namespace tautline {
 namespace {
@@ -15,31 +16,34 @@ using SimTK::State;
 /** Turns states of a simulation into rows and counts. */
 class Recorder {
 public:
-    Recorder(ModelSystem& model, SimulationResult& result) : m_model(model), m_result(result) {
-        m_result.muscles.resize(model.getMuscles().size());
+    Recorder(const ModelSystem& model, SimulationResult& result)
+        : m_model(model), m_paths(model.getPaths()), m_result(result) {
+        m_result.summaries.resize(m_paths.size());
         m_result.events = "time,path,obstacle,kind\n";
-        m_result.states.name = "states", m_result.paths.name = "paths";
+        m_result.states.name = "states", m_result.paths.name = "paths", m_result.clearances.name = "clearances";
         labelStates();
         labelPaths();
+        labelClearances();
     }
 
     void recordRow(const State& state) {
         m_model.getSystem().realize(state, Stage::Velocity);
         recordStates(state);
         recordPaths(state);
+        recordClearances(state);
     }
 
     /** Counts what an accepted step's paths are like. */
     void inspectStep(const State& state) {
         m_model.getSystem().realize(state, Stage::Position);
         ++m_result.acceptedSteps;
-        for (std::size_t i = 0; i < m_model.getMuscles().size(); ++i) {
-            const Cable& cable = m_model.getMuscles()[i].cable;
-            MuscleSummary& summary = m_result.muscles[i];
+        for (std::size_t i = 0; i < m_paths.size(); ++i) {
+            const Cable& cable = m_paths[i].cable;
+            PathSummary& summary = m_result.summaries[i];
             summary.largestPathError = std::max(summary.largestPathError, cable.getPathError(state));
-            const PathStatus status = cable.getStatus(state);
+            const PathStatus status = getStatusOfStep(cable, state);
             const PathVerification verification = cable.calcVerification(state);
-            if (status == PathStatus::Solved && isSoundBetweenEvents(cable, state, verification)) continue;
+            if (status == PathStatus::Solved && isSoundBetweenEvents(verification)) continue;
             if (summary.degradedSteps++ > 0) continue;
             summary.firstDegradation = "at " + std::to_string(state.getTime()) + " s: ";
             summary.firstDegradation +=
@@ -47,25 +51,40 @@ public:
         }
     }
 
-    void recordEvent(std::size_t muscle, const ContactEvent& event) {
+    void recordEvent(std::size_t path, const ContactEvent& event) {
         const bool isMade = event.kind == ContactEvent::Kind::Made;
-        (isMade ? m_result.muscles[muscle].contactsMade : m_result.muscles[muscle].contactsLost) += 1;
-        const ModelSystem::MuscleSlot& slot = m_model.getMuscles()[muscle];
-        char time[32];
-        const auto end = std::to_chars(time, time + sizeof time, event.time).ptr;
-        m_result.events += std::string(time, end) + "," + slot.path + "," + slot.cable.getElementName(event.obstacle) +
-                           "," + (isMade ? "touchdown" : "liftoff") + "\n";
+        (isMade ? m_result.summaries[path].contactsMade : m_result.summaries[path].contactsLost) += 1;
+        m_result.events += toText(event.time) + "," + m_paths[path].path + "," +
+                           m_paths[path].cable.getElementName(event.obstacle) + "," +
+                           (isMade ? "touchdown" : "liftoff") + "\n";
     }
 
 private:
     /** Where contact is about to change, an arc may be of rounding length below zero until the event handler
     has run: the event finder watches exactly that, and it is no fault of the path. */
-    static bool isSoundBetweenEvents(const Cable&, const State&, const PathVerification& verification) {
+    static bool isSoundBetweenEvents(const PathVerification& verification) {
         return verification.isMinimum() || verification.condition == PathVerification::Condition::NegativeLength;
+    }
+
+    /** While contacts are kept, the path's own status tells only whether the path error vanishes. */
+    static PathStatus getStatusOfStep(const Cable& cable, const State& state) {
+        const auto& contacts = cable.getSolution(state).contacts;
+        const bool hasEndInside = std::any_of(contacts.begin(), contacts.end(),
+                                              [](const ObstacleContact& contact) { return contact.isSwitchedOff; });
+        const PathStatus status = cable.getStatus(state);
+        return status == PathStatus::Solved && hasEndInside ? PathStatus::EndInside : status;
     }
 
     static std::string describeFault(const Cable& cable, const PathVerification& verification) {
         return "not a minimum at obstacle '" + cable.getElementName(CableElementIndex(verification.element)) + "'";
+    }
+
+    /** Calls a function with the element index of each obstacle and whether its surface is parametric. */
+    template <class Function>
+    static void forEachObstacle(const ModelSystem::PathView& path, Function&& act) {
+        std::size_t wrap = 0;
+        for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e)
+            if (path.cable.isObstacle(e)) act(e, path.wraps[wrap++].form == models::SurfaceForm::Parametric);
     }
 
     void labelStates() {
@@ -79,15 +98,27 @@ private:
 
     void labelPaths() {
         m_result.paths.labels = {"time"};
-        for (const auto& slot : m_model.getMuscles()) {
-            for (const char* quantity : {"|length", "|rate", "|tension"})
-                m_result.paths.labels.push_back(slot.path + quantity);
-            for (CableElementIndex e(0); e < slot.cable.getNumElements(); ++e)
-                if (slot.cable.isObstacle(e))
-                    m_result.paths.labels.push_back(slot.path + "|contact." + slot.cable.getElementName(e));
+        for (const auto& path : m_paths) {
+            for (const char* quantity : {"|length", "|rate", "|tension", "|path_error"})
+                m_result.paths.labels.push_back(path.path + quantity);
+            for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e)
+                if (path.cable.isObstacle(e))
+                    m_result.paths.labels.push_back(path.path + "|contact." + path.cable.getElementName(e));
             for (const std::string& name : m_model.getModel().getCoordinateNames())
-                m_result.paths.labels.push_back(slot.path + "|moment_arm." + name);
+                m_result.paths.labels.push_back(path.path + "|moment_arm." + name);
         }
+    }
+
+    void labelClearances() {
+        m_result.clearances.labels = {"time"};
+        for (const auto& path : m_paths)
+            forEachObstacle(path, [&](CableElementIndex e, bool isParametric) {
+                m_probes.emplace_back(path.cable, e);
+                std::vector<const char*> quantities{"|distance.", "|line_coordinate.", "|x.", "|y.", "|z."};
+                if (isParametric) quantities.insert(quantities.end(), {"|u.", "|v."});
+                for (const char* quantity : quantities)
+                    m_result.clearances.labels.push_back(path.path + quantity + path.cable.getElementName(e));
+            });
     }
 
     void recordStates(const State& state) {
@@ -102,21 +133,71 @@ private:
 
     void recordPaths(const State& state) {
         std::vector<double> row = {state.getTime()};
-        for (const auto& slot : m_model.getMuscles()) {
-            row.push_back(slot.cable.getLength(state));
-            row.push_back(slot.cable.getLengthRate(state));
-            row.push_back(slot.muscle.getTension(state));
-            for (CableElementIndex e(0); e < slot.cable.getNumElements(); ++e)
-                if (slot.cable.isObstacle(e)) row.push_back(slot.cable.isTouched(state, e));
+        for (const auto& path : m_paths) {
+            row.push_back(path.cable.getLength(state));
+            row.push_back(path.cable.getLengthRate(state));
+            row.push_back(path.force.getTension(state));
+            row.push_back(path.cable.getPathError(state));
+            for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e)
+                if (path.cable.isObstacle(e)) row.push_back(path.cable.isTouched(state, e));
             for (const std::string& name : m_model.getModel().getCoordinateNames())
-                row.push_back(m_model.calcMomentArm(state, slot, name));
+                row.push_back(m_model.calcMomentArm(state, path.cable, name));
         }
         m_result.paths.rows.push_back(row);
     }
 
-    ModelSystem& m_model;
+    void recordClearances(const State& state) {
+        std::vector<double> row = {state.getTime()};
+        std::size_t probe = 0;
+        for (const auto& path : m_paths)
+            forEachObstacle(path, [&](CableElementIndex, bool isParametric) {
+                LineClearance clearance = m_probes[probe++].calcClearance(state);
+                if (!clearance.found) {
+                    clearance.distance = clearance.lineCoordinate = kNaN;
+                    clearance.C = {Vec3::Constant(kNaN), Vec2::Constant(kNaN), 0};
+                }
+                const Vec3& C = clearance.C.p;
+                row.insert(row.end(), {clearance.distance, clearance.lineCoordinate, C.x(), C.y(), C.z()});
+                if (isParametric) row.insert(row.end(), {clearance.C.uv[0], clearance.C.uv[1]});
+            });
+        m_result.clearances.rows.push_back(row);
+    }
+
+    const ModelSystem& m_model;
+    std::vector<ModelSystem::PathView> m_paths;
     SimulationResult& m_result;
+    std::vector<models::ClearanceProbe> m_probes;  ///< one per obstacle, path by path
 };
+
+void recordIterations(const ModelSystem::PathView& path, const models::IteratedPath& iterated, std::string& csv) {
+    if (csv.empty()) csv = "path,iteration,obstacle,error\n";
+    for (std::size_t i = 0; i < iterated.iterations.size(); ++i) {
+        const auto write = [&](const std::string& obstacle, double error) {
+            csv += path.path + "," + std::to_string(i) + "," + obstacle + "," + toText(error) + "\n";
+        };
+        write("all", iterated.iterations[i].error);
+        for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e)
+            if (path.start[e]) write(path.cable.getElementName(e), iterated.iterations[i].obstacleErrors[e]);
+    }
+}
+
+/** Has every path for which the model gives geodesics begin with what the iteration makes of them. */
+void startPaths(const ModelSystem& model, State& state, SimulationResult& result) {
+    for (const ModelSystem::PathView& path : model.getPaths()) {
+        if (path.start.empty()) continue;
+        model.getSystem().realize(state, Stage::Position);
+        const models::PathInPose inPose = models::makePathInPose(path.cable, state);
+        const models::IteratedPath iterated = models::iteratePath(inPose, path.start);
+        recordIterations(path, iterated, result.starts);
+        PathSolution solution = models::makePathSolution(inPose, iterated.start);
+        if (solution.status == PathStatus::Solved)
+            PathSolver(path.cable.getOptions()).solve(inPose.problem, inPose.pose, solution);
+        if (solution.status != PathStatus::Solved)
+            throw std::runtime_error("path '" + path.name + "': the start that the model gives leads to no shortest " +
+                                     "path: " + getName(solution.status));
+        path.cable.continueFrom(state, solution);
+    }
+}
 
 void setExcitations(ModelSystem& model, const std::map<std::string, Excitation>& excitations) {
     for (auto& slot : model.updMuscles()) {
@@ -157,16 +238,19 @@ SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excita
     SimulationResult result;
     setExcitations(model, excitations);
     State state = model.makeDefaultState();
+    startPaths(model, state, result);
     Recorder recorder(model, result);
-    for (std::size_t i = 0; i < model.updMuscles().size(); ++i)
-        model.updMuscles()[i].cable.setContactListener(
-            [&recorder, i](const ContactEvent& event) { recorder.recordEvent(i, event); });
+    const std::vector<ModelSystem::PathView> paths = model.getPaths();
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        Cable(paths[i].cable).setContactListener([&recorder, i](const ContactEvent& event) {
+            recorder.recordEvent(i, event);
+        });
     const auto start = std::chrono::steady_clock::now();
     integrate(model, state, options, recorder, reportProgress, result.finalState);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (auto& slot : model.updMuscles()) {
-        result.wrappingSeconds += slot.cable.getStatistics().seconds;
-        slot.cable.setContactListener(nullptr);
+    for (const ModelSystem::PathView& path : paths) {
+        result.wrappingSeconds += path.cable.getStatistics().seconds;
+        Cable(path.cable).setContactListener(nullptr);
     }
     return result;
 }

@@ -11,8 +11,8 @@
 
 namespace tautline {
 
-/** What one muscle's path did over a simulation. */
-struct MuscleSummary {
+/** What the path of a muscle or spring did over a simulation. */
+struct PathSummary {
     double largestPathError = 0;  ///< over accepted steps
     int contactsMade = 0, contactsLost = 0;
     int degradedSteps = 0;         ///< accepted steps whose path was no verified minimum
@@ -21,16 +21,20 @@ struct MuscleSummary {
 
 struct SimulationResult {
     StorageTable states, paths;
-    std::string events;  ///< events.csv: time,path,obstacle,kind
-    std::vector<MuscleSummary> muscles;
+    StorageTable clearances;  ///< where each obstacle stands to the straight segment that passes it
+    std::string events;       ///< events.csv: time,path,obstacle,kind
+    std::string starts;       ///< start.csv: path,iteration,obstacle,error; empty if the model gives no starts
+    std::vector<PathSummary> summaries;  ///< in the order of ModelSystem::getPaths()
     SimTK::State finalState;
     int acceptedSteps = 0;
     double seconds = 0;          ///< of wall time in the integration
     double wrappingSeconds = 0;  ///< of it in the path solver
 };
 
-/** Simulates a model forward under gravity and its muscles' excitations from its default pose.
+/** Simulates a model forward under gravity and its muscles' excitations from its default pose. Paths for which
+the model gives geodesics to start from begin with what these lead to, others with what the solver finds.
 @param reportProgress   called with the share done, 0 to 1
+@throws std::runtime_error if a start that the model gives leads to no path
 @return the recorded results; the same for the same input, bit for bit, but for the times */
 SimulationResult simulate(models::ModelSystem& model, const std::map<std::string, Excitation>& excitations,
                           const SimulationOptions& options, const std::function<void(double)>& reportProgress);

@@ -8,12 +8,6 @@
 namespace tautline {
 namespace {
 
-std::string toText(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value).ptr;  // shortest that reads back the same
-    return {text, end};
-}
-
 [[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& what) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
 }
@@ -34,6 +28,12 @@ double toNumber(const std::string& word, const std::filesystem::path& file, int 
 }
 
 }  // namespace
+
+std::string toText(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    return {text, end};
+}
 
 void writeWhole(const std::string& text, const std::filesystem::path& file) {
     const std::filesystem::path part = file.string() + ".part";

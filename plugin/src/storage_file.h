@@ -13,8 +13,11 @@ struct StorageTable {
     bool isInDegrees = false;
 };
 
-/** Writes a table so that reading it gives the same doubles. The file appears whole or not at all.
-Throws std::runtime_error naming the file. */
+/** The shortest text that reads back as the same double. */
+std::string toText(double value);
+
+/** Writes a table so that reading it gives the same doubles; what is not defined is written as nan. The file appears
+whole or not at all. Throws std::runtime_error naming the file. */
 void writeStorage(const StorageTable& table, const std::filesystem::path& file);
 
 /** Writes text likewise. */

@@ -15,6 +15,14 @@ check_cxx_source_compiles("
         auto record = &SimTK::CacheEntryInfo::recordPrerequisiteVersions;
         return record == nullptr;
     }" TAUTLINE_SIMBODY_KEEPS_ASSERTS)
+# CablePath's successor, with the interface that it was released with.
+check_cxx_source_compiles("
+    #include <Simbody.h>
+    int main() {
+        auto length = &SimTK::CableSpan::calcLengthDot;
+        auto accuracy = &SimTK::CableSpan::setCurveSegmentAccuracy;
+        return length == nullptr || accuracy == nullptr;
+    }" TAUTLINE_SIMBODY_HAS_CABLE_SPAN)
 unset(CMAKE_REQUIRED_FLAGS)
 unset(CMAKE_REQUIRED_INCLUDES)
 unset(CMAKE_REQUIRED_LIBRARIES)

@@ -19,7 +19,9 @@ CableElement makePoint(const CableImpl& cable, const MobilizedBody& body, const 
                        std::string name) {
     require(station_B.isFinite(), "cable '", cable.getName(), "': the station of ",
             name.empty() ? "a point" : "'" + name + "'", " is not finite: ", station_B);
-    return {std::move(name), body.getMobilizedBodyIndex(), SimTK::Transform(station_B), nullptr, std::nullopt};
+    CableElement point;
+    point.name = std::move(name), point.body = body.getMobilizedBodyIndex(), point.X_BE = SimTK::Transform(station_B);
+    return point;
 }
 
 /** A body of another system would be taken for one of ours with the same index. */
@@ -56,6 +58,34 @@ CableElementIndex Cable::addViaPoint(const MobilizedBody& body, const SimTK::Vec
     return upd().insertElement(makePoint(get(), body, station_B, std::move(name)));
 }
 
+CableElementIndex Cable::addMovingPoint(const MobilizedBody& body, std::shared_ptr<const MovingStation> station,
+                                        std::string name) {
+    requireOwnBody(get().getSubsystemImpl(), getName(), body);
+    require(station != nullptr, "cable '", getName(), "': the moving point '", name, "' has no station");
+    CableElement point = makePoint(get(), body, SimTK::Vec3(0), std::move(name));
+    point.moving = std::move(station);
+    return upd().insertElement(std::move(point));
+}
+
+CableElementIndex Cable::addConditionalPoint(const MobilizedBody& body, const SimTK::Vec3& station_B,
+                                             std::function<bool(const State&)> isActive, std::string name) {
+    requireOwnBody(get().getSubsystemImpl(), getName(), body);
+    require(isActive != nullptr, "cable '", getName(), "': the conditional point '", name, "' has no condition");
+    CableElement point = makePoint(get(), body, station_B, std::move(name));
+    point.isActive = std::move(isActive);
+    return upd().insertElement(std::move(point));
+}
+
+void Cable::setMovingOrigin(std::shared_ptr<const MovingStation> station) {
+    require(station != nullptr, "cable '", getName(), "': the moving origin has no station");
+    upd().setMovingEnd(true, std::move(station));
+}
+
+void Cable::setMovingInsertion(std::shared_ptr<const MovingStation> station) {
+    require(station != nullptr, "cable '", getName(), "': the moving insertion has no station");
+    upd().setMovingEnd(false, std::move(station));
+}
+
 CableElementIndex Cable::addObstacle(const MobilizedBody& body, const SimTK::Transform& X_BS,
                                      std::shared_ptr<const Surface> surface, std::optional<SimTK::Vec3> hint_S,
                                      std::string name) {
@@ -64,7 +94,10 @@ CableElementIndex Cable::addObstacle(const MobilizedBody& body, const SimTK::Tra
     require(X_BS.p().isFinite() && X_BS.R().isFinite(), "cable '", getName(), "': the pose of obstacle '", name,
             "' is not finite");
     require(!hint_S || hint_S->isFinite(), "cable '", getName(), "': the hint of obstacle '", name, "' is not finite");
-    return upd().insertElement({std::move(name), body.getMobilizedBodyIndex(), X_BS, std::move(surface), hint_S});
+    CableElement obstacle;
+    obstacle.name = std::move(name), obstacle.body = body.getMobilizedBodyIndex(), obstacle.X_BE = X_BS;
+    obstacle.surface = std::move(surface), obstacle.hint_S = hint_S;
+    return upd().insertElement(std::move(obstacle));
 }
 
 void Cable::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
@@ -148,6 +181,12 @@ void Cable::fixContacts(State& state) const {
     get().keepContacts(state, get().calcSettledPath(state));
 }
 
+void Cable::continueFrom(State& state, const PathSolution& path) const {
+    require(static_cast<int>(path.contacts.size()) == getNumElements(), "cable '", getName(), "': a path with ",
+            path.contacts.size(), " contacts for ", getNumElements(), " elements");
+    get().keepContacts(state, path);
+}
+
 void Cable::releaseContacts(State& state) const {
     get().releaseContacts(state);
 }
@@ -175,6 +214,18 @@ const PathSolution& Cable::getSolution(const State& state) const {
 PathVerification Cable::calcVerification(const State& state) const {
     const PathSolution& path = get().getPath(state, "Cable::calcVerification()");
     return verifyPath(get().getProblem(), get().getPose(state), path);
+}
+
+bool Cable::isActive(const State& state, CableElementIndex element) const {
+    get().getElement(element);
+    get().getPath(state, "Cable::isActive()");
+    return get().getPose(state).hasElement(element);
+}
+
+SimTK::Vec3 Cable::calcStation(const State& state, CableElementIndex element) const {
+    const CableElement& found = get().getElement(element);
+    get().getSubsystemImpl().ensureStage(state, SimTK::Stage::Position, "Cable::calcStation()");
+    return found.moving ? found.moving->calcStation(state) : found.X_BE.p();
 }
 
 bool Cable::isTouched(const State& state, CableElementIndex obstacle) const {
@@ -223,6 +274,11 @@ void Cable::applyBodyForces(const State& state, Real tension, SimTK::Vector_<Spa
     get().addBodyForces(state, tension, bodyForces, "Cable::applyBodyForces()");
 }
 
+void Cable::applyMobilityForces(const State& state, Real tension, SimTK::Vector& mobilityForces) const {
+    get().getPath(state, "Cable::applyMobilityForces()");
+    get().addMobilityForces(state, tension, mobilityForces, "Cable::applyMobilityForces()");
+}
+
 void Cable::calcUnitBodyForces(const State& state, SimTK::Vector_<SpatialVec>& unitForces) const {
     unitForces.resize(getMatterSubsystem().getNumBodies());
     unitForces = SpatialVec(SimTK::Vec3(0));
@@ -238,6 +294,7 @@ void Cable::calcUnitMobilityForces(const State& state, SimTK::Vector& unitForces
     SimTK::Vector_<SpatialVec> F_G;
     calcUnitBodyForces(state, F_G);
     getMatterSubsystem().multiplyBySystemJacobianTranspose(state, F_G, unitForces);
+    get().addMobilityForces(state, 1, unitForces, "Cable::calcUnitMobilityForces()");
 }
 
 Real Cable::calcMomentArm(const State& state, SimTK::MobilizedBodyIndex body, SimTK::MobilizerUIndex u) const {
@@ -257,7 +314,9 @@ Real Cable::calcPower(const State& state, Real tension) const {
     get().getSubsystemImpl().ensureStage(state, SimTK::Stage::Velocity, "Cable::calcPower()");
     SimTK::Vector_<SpatialVec> F_G;
     calcUnitBodyForces(state, F_G);
-    Real power = 0;
+    SimTK::Vector f(state.getNU(), Real(0));
+    get().addMobilityForces(state, 1, f, "Cable::calcPower()");
+    Real power = ~f * state.getU();
     for (SimTK::MobilizedBodyIndex b(0); b < F_G.size(); ++b)
         power += ~F_G[b] * getMatterSubsystem().getMobilizedBody(b).getBodyVelocity(state);
     return tension * power;

@@ -44,9 +44,11 @@ Real CableForceImpl::calcTension(const State& state) const {
 }
 
 void CableForceImpl::calcForce(const State& state, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,
-                               SimTK::Vector_<SimTK::Vec3>&, SimTK::Vector&) const {
+                               SimTK::Vector_<SimTK::Vec3>&, SimTK::Vector& mobilityForces) const {
     const Real tension = calcTension(state);
-    if (tension > 0) m_law->getCable().applyBodyForces(state, tension, bodyForces);
+    if (!(tension > 0)) return;
+    m_law->getCable().applyBodyForces(state, tension, bodyForces);
+    m_law->getCable().applyMobilityForces(state, tension, mobilityForces);
 }
 
 Real CableForceImpl::calcPotentialEnergy(const State& state) const {

@@ -1,5 +1,6 @@
 #include "cable_impl.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "cable_subsystem_impl.h"
@@ -46,11 +47,17 @@ CableElementIndex CableImpl::insertElement(CableElement element) {
     if (element.name.empty()) element.name = (element.surface ? "obstacle" : "point") + std::to_string(index);
     for (const CableElement& other : m_elements)
         require(other.name != element.name, "cable '", m_name, "': there is an element '", element.name, "' already");
-    const bool isObstacle = element.surface != nullptr;
+    const bool isObstacle = element.surface != nullptr, isConditional = element.isActive != nullptr;
     m_elements.insert(m_elements.end() - 1, std::move(element));
     m_cables.invalidateSubsystemTopologyCache();
     if (isObstacle) m_cables.updSystem().addEventHandler(new ContactEventHandler(*this, index));
+    if (isConditional) m_cables.updSystem().addEventHandler(new ConditionEventHandler(*this, index));
     return index;
+}
+
+void CableImpl::setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station) {
+    (isOrigin ? m_elements.front() : m_elements.back()).moving = std::move(station);
+    m_cables.invalidateSubsystemTopologyCache();
 }
 
 void CableImpl::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
@@ -152,26 +159,49 @@ const std::vector<SpatialForce>& CableImpl::calcElementForces(const State& state
 void CableImpl::addBodyForces(const State& state, Real tension, SimTK::Vector_<SpatialVec>& bodyForces,
                               const char* method) const {
     const std::vector<SpatialForce>& F_GE = calcElementForces(state, method);
+    const PathPose& pose = getPose(state);
     for (int e = 0; e < getNumElements(); ++e) {
         const CableElement& element = m_elements[e];
         const SpatialVec F = tension * toSpatialVec(F_GE[e]);
-        const SimTK::Rotation& R_GB = getBody(element).getBodyRotation(state);
-        bodyForces[element.body] += SpatialVec(F[0] + (R_GB * element.X_BE.p()) % F[1], F[1]);
+        const SimTK::Vec3 p_BE_G = toSimTK(pose.X_GE[e].p) - getBody(element).getBodyOriginLocation(state);
+        bodyForces[element.body] += SpatialVec(F[0] + p_BE_G % F[1], F[1]);
+    }
+}
+
+void CableImpl::addMobilityForces(const State& state, Real tension, SimTK::Vector& mobilityForces,
+                                  const char* method) const {
+    const auto isMoving = [](const CableElement& element) { return element.moving != nullptr; };
+    if (std::none_of(m_elements.begin(), m_elements.end(), isMoving)) return;
+    const std::vector<SpatialForce>& F_GE = calcElementForces(state, method);
+    for (int e = 0; e < getNumElements(); ++e) {
+        const CableElement& element = m_elements[e];
+        if (!element.moving) continue;
+        const SimTK::Vec3 force_B = ~getBody(element).getBodyRotation(state) * toSimTK(F_GE[e].force);
+        element.moving->addMobilityForces(state, tension * force_B, mobilityForces);
     }
 }
 
 void CableImpl::calcPose(const State& state, PathPose& pose) const {
     pose.X_GE.resize(m_elements.size());
-    for (std::size_t e = 0; e < m_elements.size(); ++e)
-        pose.X_GE[e] = toPose(getBody(m_elements[e]).getBodyTransform(state) * m_elements[e].X_BE);
+    pose.isActive.assign(m_elements.size(), 1);
+    for (std::size_t e = 0; e < m_elements.size(); ++e) {
+        const CableElement& element = m_elements[e];
+        const SimTK::Transform& X_GB = getBody(element).getBodyTransform(state);
+        pose.X_GE[e] =
+            element.moving ? Pose(toEigen(X_GB * element.moving->calcStation(state))) : toPose(X_GB * element.X_BE);
+        if (element.isActive) pose.isActive[e] = element.isActive(state);
+    }
 }
 
 void CableImpl::calcVelocities(const State& state, std::vector<SpatialVelocity>& V_GE) const {
     V_GE.resize(m_elements.size());
     for (std::size_t e = 0; e < m_elements.size(); ++e) {
         const SimTK::MobilizedBody& body = getBody(m_elements[e]);
-        V_GE[e] = {toEigen(body.getBodyAngularVelocity(state)),
-                   toEigen(body.findStationVelocityInGround(state, m_elements[e].X_BE.p()))};
+        const std::shared_ptr<const MovingStation>& moving = m_elements[e].moving;
+        const SimTK::Vec3 station_B = moving ? moving->calcStation(state) : m_elements[e].X_BE.p();
+        SimTK::Vec3 v_G = body.findStationVelocityInGround(state, station_B);
+        if (moving) v_G += body.getBodyRotation(state) * moving->calcVelocity(state);
+        V_GE[e] = {toEigen(body.getBodyAngularVelocity(state)), toEigen(v_G)};
     }
 }
 
@@ -229,23 +259,29 @@ void CableImpl::releaseContacts(State& state) const {
 void CableImpl::handleContactEvent(State& state) const {
     const CableMode& mode = m_state.getMode(state);
     if (mode.isDisabled || !mode.keepsContacts) return;
-    m_cables.getSystem().realize(state, Stage::Position);
+    m_cables.getSystem().realize(state, Stage::Velocity);
     const PathSolution before = getPath(state, "ContactEventHandler::handleEvent()");
     PathSolution after = before;
     CableWorkspace& workspace = m_state.updWorkspace(state);
     // Another obstacle's handler may have settled this one's contact already.
     if (!settleContacts(workspace.solver, m_problem, workspace.pose, after)) return;
+    calcVelocities(state, workspace.velocities);
     m_state.setStart(state, after);
     report(state, before, after);
 }
 
+/** @param state   whose pose and velocities are in its workspace */
 void CableImpl::report(const State& state, const PathSolution& before, const PathSolution& after) const {
+    const CableWorkspace& workspace = m_state.updWorkspace(state);
+    const Real rateBefore = calcLengthRate(before, workspace.pose, workspace.velocities);
+    const Real rateAfter = calcLengthRate(after, workspace.pose, workspace.velocities);
     for (CableElementIndex e(0); e < getNumElements(); ++e) {
         if (before.contacts[e].isTouched == after.contacts[e].isTouched) continue;
         ++m_counters.events;
         using Kind = ContactEvent::Kind;
         const Kind kind = after.contacts[e].isTouched ? Kind::Made : Kind::Lost;
-        if (m_listener) m_listener({state.getTime(), m_index, e, kind, before.length, after.length});
+        if (m_listener)
+            m_listener({state.getTime(), m_index, e, kind, before.length, after.length, rateBefore, rateAfter});
     }
 }
 

@@ -16,6 +16,8 @@ struct CableElement {
     SimTK::Transform X_BE;
     std::shared_ptr<const Surface> surface;  ///< null: a point
     std::optional<SimTK::Vec3> hint_S;
+    std::shared_ptr<const MovingStation> moving = nullptr;        ///< of a point; null: it is fixed at X_BE
+    std::function<bool(const SimTK::State&)> isActive = nullptr;  ///< of a point; null: always
 };
 
 /** What stands behind a Cable handle. */
@@ -26,6 +28,7 @@ public:
 
     void setEnds(CableElement origin, CableElement insertion);
     CableElementIndex insertElement(CableElement element);
+    void setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station);
     void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
     void setOptions(const PathSolverOptions& options);
     void setDisabledByDefault(bool isDisabled);
@@ -59,6 +62,9 @@ public:
     const std::vector<SpatialForce>& calcElementForces(const SimTK::State& state, const char* method) const;
     void addBodyForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,
                        const char* method) const;
+
+    void addMobilityForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector& mobilityForces,
+                           const char* method) const;
 
     /** The path of this state with all contacts settled, as a study starts from it. */
     PathSolution calcSettledPath(const SimTK::State& state) const;

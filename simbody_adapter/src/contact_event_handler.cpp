@@ -24,4 +24,18 @@ void ContactEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) c
     m_cable.handleContactEvent(state);
 }
 
+ConditionEventHandler::ConditionEventHandler(const CableImpl& cable, CableElementIndex point)
+    : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_point(point) {
+    getTriggerInfo().setRequiredLocalizationTimeWindow(kLocalizationWindow);
+}
+
+/** A jump from -1 to 1: the event finder halves its interval. */
+SimTK::Real ConditionEventHandler::getValue(const SimTK::State& state) const {
+    return m_cable.getElement(m_point).isActive(state) ? 1 : -1;
+}
+
+void ConditionEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {
+    m_cable.handleContactEvent(state);
+}
+
 }  // namespace tautline

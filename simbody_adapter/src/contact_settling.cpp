@@ -1,7 +1,5 @@
 #include "contact_settling.h"
 
-#include <cmath>
-
 namespace tautline {
 namespace {
 
@@ -17,33 +15,7 @@ int findWorstContact(const PathProblem& problem, const PathPose& pose, const Pat
     return worst;
 }
 
-void lift(ObstacleContact& contact) {
-    contact.isTouched = false;
-    contact.clearance = LineClearance();
-    contact.clearance.C = contact.start.point;
-    contact.clearance.N = contact.geodesic.P.N;
-}
-
-void switchContact(const PathProblem& problem, const PathPose& pose, int element, PathSolution& path) {
-    ObstacleContact& contact = path.contacts[element];
-    if (contact.isTouched) return lift(contact);
-    const Vec3 e_S = pose.X_GE[element].R.transpose() * path.segments[contact.segment].e;
-    touchAtClearance(*problem.getElement(element).surface, e_S, contact);
-}
-
 }  // namespace
-
-double calcContactWitness(const PathProblem& problem, const PathSolution& path, int element) {
-    // The smallest sign that there is: a start from exactly zero would hide the event that follows.
-    constexpr double kTiny = std::numeric_limits<double>::min();
-    const ObstacleContact& contact = path.contacts[element];
-    // An end inside leaves no path over the obstacle: it must be off, and then nothing is watched.
-    if (contact.isSwitchedOff) return contact.isTouched ? -1 : 1;
-    const double witness = contact.isTouched ? contact.start.length / problem.getElement(element).surface->getSize()
-                                             : contact.clearance.distance * contact.clearance.scale - kContactTolerance;
-    if (!std::isfinite(witness)) return 1;
-    return witness == 0 ? kTiny : witness;
-}
 
 bool settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PathSolution before = path;
@@ -59,13 +31,6 @@ bool settleContacts(PathSolver& solver, const PathProblem& problem, const PathPo
     solver.solve(problem, pose, path);
     if (path.status == PathStatus::NotConverged) path = before;
     return !haveSameContacts(before, path);
-}
-
-bool haveSameContacts(const PathSolution& a, const PathSolution& b) {
-    if (a.contacts.size() != b.contacts.size()) return false;
-    for (std::size_t e = 0; e < a.contacts.size(); ++e)
-        if (a.contacts[e].isTouched != b.contacts[e].isTouched) return false;
-    return true;
 }
 
 }  // namespace tautline

@@ -62,7 +62,7 @@ void removeLifted(const PathProblem& problem, const PathPose& pose, const PathSo
         if (element.isPoint())
             reduced.addPoint(element.name);
         else
-            reduced.addObstacle(element.name, element.surface, element.hint_S);
+            reduced.addObstacle(element.name, element.surface, element.hint);
         reducedPose.X_GE.push_back(pose.X_GE[e]);
     }
 }

@@ -42,7 +42,7 @@ TEST(Weave, TenCylindersHaveTheKnownMeanLength) {
 /** Length of a fine elastic string laid along a path and let go. */
 double calcRelaxedLength(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     ElasticString string;
-    string.lay(problem, pose, &path);
+    string.lay(problem, pose, calcPreviousGuides(problem, pose, path));
     string.relax(problem, pose, 0.25, 1e-6, 6000);
     double length = 0;
     for (std::size_t k = 0; k + 1 < string.getNodes().size(); ++k)

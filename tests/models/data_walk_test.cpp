@@ -6,6 +6,7 @@
 
 #include "model_test_support.h"
 #include "support/shared_data.h"
+#include "tautline/models/model_system.h"
 #include "tautline/models/path_points.h"
 
 namespace tautline::models::testing {
@@ -69,6 +70,98 @@ TEST(DataWalk1018, HasTheReferenceLengthsOverTheMotion) {
     }
     std::cout << "18 muscles, 151 frames: worst " << worst << " m\n";
     EXPECT_LT(worst, 2e-7) << "1.5e-7 from offsets that the reference rounded to six digits";
+}
+
+/** Poses a model as a frame of a motion in degrees says. */
+void setFrame(const BuiltModel& model, const Table& motion, std::size_t frame, SimTK::State& state) {
+    for (std::size_t i = 1; i < motion.labels.size(); ++i) {
+        const std::string name = findCoordinateName(motion.labels[i]);
+        const bool shifts = name == "pelvis_tx" || name == "pelvis_ty";
+        model.setCoordinate(state, name, motion.rows[frame][i] * (shifts ? 1.0 : SimTK_DEGREE_TO_RADIAN));
+    }
+}
+
+TEST(DataWalk1018, CablesWithMovingAndConditionalPointsHaveTheReferenceLengths) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    const auto folder = shared / "data" / "opensim";
+    ModelSystem walk(readOsimFile(folder / "models" / "walk_gait1018_subject01.osim"));
+    const Table motion = readTable(folder / "motions" / "walk_gait1018_state_reference.mot");
+    const Table lengths =
+        readTable(folder / "reference" / "std_testGeometryPathWrapping_walk_gait1018_muscle_lengths.sto");
+    SimTK::State state = walk.makeDefaultState();
+    double worst = 0.0;
+    int numPassedOver = 0;
+    for (std::size_t frame = 0; frame < motion.rows.size(); ++frame) {
+        setFrame(walk.getModel(), motion, frame, state);
+        walk.getSystem().realize(state, SimTK::Stage::Position);
+        for (std::size_t i = 0; i < walk.getMuscles().size(); ++i) {
+            const ModelSystem::MuscleSlot& muscle = walk.getMuscles()[i];
+            ASSERT_EQ(lengths.labels[i + 1], muscle.path + "|length");
+            worst = std::max(worst, std::abs(muscle.cable.getLength(state) - lengths.rows[frame][i + 1]));
+            for (CableElementIndex e(0); e < muscle.cable.getNumElements(); ++e)
+                numPassedOver += !muscle.cable.isActive(state, e);
+        }
+    }
+    std::cout << "18 muscles, 151 frames: worst " << worst << " m, conditional points passed over " << numPassedOver
+              << " times\n";
+    EXPECT_GT(numPassedOver, 0);
+    EXPECT_LT(worst, 2e-7) << "1.5e-7 from offsets that the reference rounded to six digits";
+}
+
+TEST(DataWalk1018, MomentArmsAndRatesAreSlopesOfTheLength) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    const auto folder = shared / "data" / "opensim";
+    ModelSystem walk(readOsimFile(folder / "models" / "walk_gait1018_subject01.osim"));
+    const Table motion = readTable(folder / "motions" / "walk_gait1018_state_reference.mot");
+    SimTK::State state = walk.makeDefaultState();
+    const BuiltModel& model = walk.getModel();
+    const double h = 1e-6;
+    double worstArm = 0.0, worstRate = 0.0;
+    for (const std::size_t frame : {10u, 60u, 110u}) {
+        setFrame(model, motion, frame, state);
+        for (const std::string& name : model.getCoordinateNames()) model.setCoordinateSpeed(state, name, 1.3);
+        for (const std::string& name : model.getCoordinateNames()) {
+            const double q = model.getCoordinate(state, name);
+            SimTK::State less = state, more = state;
+            model.setCoordinate(less, name, q - h);
+            model.setCoordinate(more, name, q + h);
+            for (SimTK::State* each : {&state, &less, &more}) walk.getSystem().realize(*each, SimTK::Stage::Velocity);
+            for (const ModelSystem::MuscleSlot& muscle : walk.getMuscles()) {
+                const double slope = (muscle.cable.getLength(more) - muscle.cable.getLength(less)) / (2 * h);
+                worstArm = std::max(worstArm, std::abs(walk.calcMomentArm(state, muscle, name) + slope));
+            }
+        }
+        SimTK::State before = state, after = state;
+        before.updQ() = state.getQ() - h * state.getQDot();
+        after.updQ() = state.getQ() + h * state.getQDot();
+        for (SimTK::State* each : {&before, &after}) walk.getSystem().realize(*each, SimTK::Stage::Position);
+        for (const ModelSystem::MuscleSlot& muscle : walk.getMuscles()) {
+            const double rate = (muscle.cable.getLength(after) - muscle.cable.getLength(before)) / (2 * h);
+            worstRate = std::max(worstRate, std::abs(muscle.cable.getLengthRate(state) - rate));
+            EXPECT_NEAR(muscle.cable.calcPower(state, 1), -muscle.cable.getLengthRate(state), 1e-12);
+        }
+    }
+    std::cout << "moment arms against differences " << worstArm << " m, rates " << worstRate << " m/s\n";
+    EXPECT_LT(worstArm, 1e-8);
+    EXPECT_LT(worstRate, 1e-8);
+}
+
+TEST(DataModels, AllPathsOfGait2392AreThePolygonsThroughTheirPoints) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    const ModelDescription gait =
+        readOsimFile(shared / "data" / "opensim" / "models" / "gait2392_thelen2003muscle.osim");
+    ModelSystem system(gait);
+    SimTK::State state = system.makeDefaultState();
+    ASSERT_EQ(system.getMuscles().size(), 92u);
+    for (const double knee : {-1.9, -1.0, -0.1, 0.1}) {
+        for (const char* side : {"r", "l"})
+            system.getModel().setCoordinate(state, std::string("knee_angle_") + side, knee);
+        system.getSystem().realize(state, SimTK::Stage::Position);
+        for (std::size_t i = 0; i < gait.muscles.size(); ++i)
+            EXPECT_NEAR(system.getMuscles()[i].cable.getLength(state),
+                        calcPolygonLength(gait.muscles[i].path, system.getModel(), state), 1e-13)
+                << gait.muscles[i].name;
+    }
 }
 
 TEST(DataModels, AreReadAndBuilt) {

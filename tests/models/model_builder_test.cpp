@@ -127,6 +127,60 @@ TEST(BuildMultibody, APrescribedMotionFollowsTime) {
     EXPECT_NEAR(built.state.getUDot()[0], 6.0, 1e-12);
 }
 
+std::string makeDriven(const std::string& name, double omega) {
+    return "<Coordinate name=\"" + name + "\"><prescribed>true</prescribed><prescribed_function><Sine><omega>" +
+           std::to_string(omega) + "</omega></Sine></prescribed_function></Coordinate>";
+}
+
+/** ground - `one` by a planar joint with the coordinates turn, x, y; the last is driven only if asked for. */
+std::string makePlanarModel(bool isAllDriven) {
+    return makeBodySet(makeBody("one")) +
+           makeJointSet(makeJoint("PlanarJoint", "planar",
+                                  makeOffsetFrame("a", "/ground", "0 0 0", "0 0 0") +
+                                      makeOffsetFrame("b", "/bodyset/one", "0 0 0", "0 0 0"),
+                                  "<coordinates>" + makeDriven("turn", 1) + makeDriven("x", 2) +
+                                      (isAllDriven ? makeDriven("y", 3) : "<Coordinate name=\"y\"/>") +
+                                      "</coordinates>"));
+}
+
+/** Largest difference between the driven coordinates and their functions over a simulated second. */
+double calcDrivingError(bool isAllDriven) {
+    BuiltSystem built(readNew(makePlanarModel(isAllDriven)));
+    EXPECT_EQ(built.matter.getNumConstraints(), isAllDriven ? 0 : 2);
+    SimTK::RungeKuttaMersonIntegrator integrator(built.system);
+    integrator.setAccuracy(1e-6);
+    SimTK::TimeStepper stepper(built.system, integrator);
+    stepper.initialize(built.state);
+    double error = 0;
+    for (int step = 1; step <= 20; ++step) {
+        stepper.stepTo(0.05 * step);
+        const SimTK::State& state = integrator.getState();
+        const double t = state.getTime();
+        error = std::max({error, std::abs(built.model.getCoordinate(state, "turn") - std::sin(t)),
+                          std::abs(built.model.getCoordinate(state, "x") - std::sin(2 * t)),
+                          std::abs(built.model.getCoordinateSpeed(state, "x") - 2 * std::cos(2 * t))});
+        const double fall = -0.5 * 9.81 * t * t;
+        EXPECT_NEAR(built.model.getCoordinate(state, "y"), isAllDriven ? std::sin(3 * t) : fall, 1e-5);
+    }
+    return error;
+}
+
+TEST(BuildMultibody, AJointWhoseCoordinatesAreAllPrescribedIsDrivenExactly) {
+    EXPECT_LT(calcDrivingError(true), 1e-15);
+}
+
+TEST(BuildMultibody, PrescribedCoordinatesAmongFreeOnesAreDrivenToTheIntegratorsAccuracy) {
+    EXPECT_LT(calcDrivingError(false), 1e-5);
+}
+
+TEST(BuildMultibody, TheDefaultPoseOfADrivenCoordinateIsThatOfTheTime) {
+    BuiltSystem built(readNew(makePlanarModel(true)));
+    built.state.setTime(0.4);
+    built.model.setDefaultPose(built.state);
+    EXPECT_EQ(built.model.getCoordinate(built.state, "y"), std::sin(3 * 0.4));
+    EXPECT_EQ(built.model.getCoordinateSpeed(built.state, "y"), 3 * std::cos(3 * 0.4));
+}
+
 TEST(BuildMultibody, APointConstraintTiesTwoBodies) {
     BuiltSystem built(
         readNew(makeChain("<ConstraintSet><objects><PointConstraint name=\"k\"><socket_body_1>/ground</socket_body_1>"

@@ -174,6 +174,59 @@ TEST(OsimReader, WrapObjectsOfAllKinds) {
     EXPECT_EQ(path.wraps[1].range, (std::array<int, 2>{1, -1}));
 }
 
+TEST(OsimReader, WrapObjectsOfTautlinesOwn) {
+    const std::string wraps =
+        "<WrapObjectSet><objects><TautlineWrapParaboloid name=\"p\"><a>14</a><b>6</b><quadrant>-z</quadrant>"
+        "<tautline_form>parametric</tautline_form><translation>1 2 3</translation></TautlineWrapParaboloid>"
+        "<TautlineWrapEllipticTorus name=\"t\"><ring_radius>0.7</ring_radius><radial_semi_axis>0.2</radial_semi_axis>"
+        "<axial_semi_axis>0.1</axial_semi_axis></TautlineWrapEllipticTorus>"
+        "<WrapSphere name=\"s\"><radius>0.2</radius><tautline_form>implicit</tautline_form></WrapSphere>"
+        "</objects></WrapObjectSet>";
+    const ModelDescription model = readNew(makePinModel("", wraps));
+    ASSERT_EQ(model.wrapObjects.size(), 3u);
+    const WrapObject &paraboloid = model.wrapObjects[0], &torus = model.wrapObjects[1];
+    EXPECT_EQ(std::get<ParaboloidShape>(paraboloid.shape).a, 14);
+    EXPECT_EQ(std::get<ParaboloidShape>(paraboloid.shape).b, 6);
+    EXPECT_EQ(paraboloid.form, SurfaceForm::Parametric);
+    EXPECT_EQ(paraboloid.quadrant, Quadrant::MinusZ);
+    EXPECT_EQ(paraboloid.X_BW.translation, (Triple{1, 2, 3}));
+    EXPECT_EQ(std::get<EllipticTorusShape>(torus.shape).ringRadius, 0.7);
+    EXPECT_EQ(std::get<EllipticTorusShape>(torus.shape).radialSemiAxis, 0.2);
+    EXPECT_EQ(std::get<EllipticTorusShape>(torus.shape).axialSemiAxis, 0.1);
+    EXPECT_EQ(torus.form, SurfaceForm::Implicit);
+    EXPECT_EQ(model.wrapObjects[2].form, SurfaceForm::Implicit);
+}
+
+TEST(OsimReader, PathSpringsWithHintsAndStarts) {
+    const std::string wraps =
+        "<WrapObjectSet><objects><WrapSphere name=\"s\"><radius>0.2</radius></WrapSphere></objects></WrapObjectSet>";
+    const std::string spring =
+        "<ForceSet><objects><PathSpring name=\"spring\"><appliesForce>false</appliesForce><GeometryPath>"
+        "<PathPointSet><objects>" +
+        makePoint("/ground", "0 0 0") + makePoint("one", "0 3 0") +
+        "</objects></PathPointSet><tautline_wraps_in_order>true</tautline_wraps_in_order><PathWrapSet><objects>"
+        "<PathWrap><wrap_object>s</wrap_object><tautline_hint>1 2 3</tautline_hint></PathWrap>"
+        "<PathWrap><wrap_object>s</wrap_object><tautline_start><point>0 0 0.2</point><direction>0 1 0</direction>"
+        "<length>0.3</length></tautline_start></PathWrap></objects></PathWrapSet></GeometryPath>"
+        "<resting_length>0.5</resting_length><stiffness>7</stiffness><dissipation>0.1</dissipation>"
+        "</PathSpring></objects></ForceSet>";
+    const ModelDescription model = readNew(makePinModel(spring, wraps));
+    ASSERT_NE(findSpring(model, "spring"), nullptr);
+    const PathSpring& read = *findSpring(model, "spring");
+    EXPECT_FALSE(read.appliesForce);
+    EXPECT_EQ(read.restingLength, 0.5);
+    EXPECT_EQ(read.stiffness, 7);
+    EXPECT_EQ(read.dissipation, 0.1);
+    EXPECT_TRUE(read.path.areWrapsInOrder);
+    ASSERT_EQ(read.path.wraps.size(), 2u);
+    EXPECT_EQ(read.path.wraps[0].hint, (Triple{1, 2, 3}));
+    EXPECT_FALSE(read.path.wraps[0].start.has_value());
+    ASSERT_TRUE(read.path.wraps[1].start.has_value());
+    EXPECT_EQ(read.path.wraps[1].start->point, (Triple{0, 0, 0.2}));
+    EXPECT_EQ(read.path.wraps[1].start->direction, (Triple{0, 1, 0}));
+    EXPECT_EQ(read.path.wraps[1].start->length, 0.3);
+}
+
 TEST(OsimReader, WhatHasNoEffectIsListed) {
     const ModelDescription model =
         readNew(makePinModel("<credits>someone</credits>\n<MarkerSet><objects><Marker name=\"k\"/></objects>"

@@ -56,6 +56,16 @@ TEST(ScalarFunction, ScalingActsOnValueAndDerivativesAndMultiplies) {
     EXPECT_TRUE(scaled.scaledBy(0.0).isConstant());
 }
 
+TEST(ScalarFunction, SineHasItsAmplitudePhaseAndOffset) {
+    const ScalarFunction sine = ScalarFunction::sine(3, 2, SimTK::Pi / 6, 1);
+    EXPECT_NEAR(sine.calcValue(0), 2.5, 1e-15);
+    EXPECT_NEAR(sine.calcValue(SimTK::Pi / 6), 4, 1e-15);  // the crest
+    EXPECT_NEAR(sine.calcDerivative(0), 6 * std::sqrt(0.75), 1e-15);
+    EXPECT_FALSE(sine.isConstant());
+    EXPECT_TRUE(ScalarFunction::sine(3, 0, 1, 1).isConstant());
+    EXPECT_THROW(ScalarFunction::sine(3, SimTK::NaN, 1, 1), std::invalid_argument);
+}
+
 TEST(SimmSpline, OfTwoKnotsIsTheLine) {
     const ScalarFunction line = ScalarFunction::simmSpline({1.0, 3.0}, {2.0, 6.0});
     EXPECT_DOUBLE_EQ(line.calcValue(2.0), 4.0);
@@ -131,7 +141,8 @@ TEST(ScalarFunction, DerivativesAgreeWithDifferences) {
     const std::vector<double> x{-1.2, -0.5, 0.1, 0.9, 2.1}, y{0.4, -0.2, 0.9, 0.3, 0.5};
     const ScalarFunction functions[] = {
         ScalarFunction::simmSpline(x, y), ScalarFunction::simmSpline(x, y).scaledBy(-1.7),
-        ScalarFunction::polynomial({0.3, -1.0, 0.2, 2.0}), ScalarFunction::linear(2.0, 1.0)};
+        ScalarFunction::polynomial({0.3, -1.0, 0.2, 2.0}), ScalarFunction::linear(2.0, 1.0),
+        ScalarFunction::sine(0.7, 1.3, 0.2, -0.4), ScalarFunction::sine(0.7, 1.3, 0.2, -0.4).scaledBy(-2.0)};
     const double h = 1e-5;  // near the cube root of the rounding unit
     for (const ScalarFunction& function : functions) {
         for (double at : {-2.0, -0.9, 0.0, 0.5, 1.5, 3.0}) {

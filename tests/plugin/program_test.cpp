@@ -120,6 +120,56 @@ TEST(Program, ExcitationMovesTheArm) {
     EXPECT_GT(b.rows.back()[elbow], a.rows.back()[elbow] + 0.05);
 }
 
+TEST(Program, DrawsCurvesWithGnuplot) {
+    const std::filesystem::path folder = makeFolder("curves");
+    const Outcome outcome = runProgram("run " TAUTLINE_SOURCE_DIR
+                                       "/models/four_surfaces_parametric.osim --duration 1.5 "
+                                       "--interval 0.1 --plot --out " +
+                                       folder.string());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.text;
+    EXPECT_EQ(outcome.text.find("warning"), std::string::npos) << outcome.text;
+    const std::string curves = readAll(folder / "curves_string.svg"), start = readAll(folder / "start_string.svg");
+    for (const char* title : {"length [m]", "rate [m/s]", "signed distance d [m]", "over_ellipsoid", "</svg>"})
+        EXPECT_NE(curves.find(title), std::string::npos) << title;
+    for (const char* title : {"path errors over iterations", "through_torus", "</svg>"})
+        EXPECT_NE(start.find(title), std::string::npos) << title;
+    // As often as the script is run.
+    EXPECT_EQ(std::system(("cd '" + folder.string() + "' && rm *.svg && gnuplot curves.gp").c_str()), 0);
+    EXPECT_EQ(readAll(folder / "curves_string.svg"), curves);
+}
+
+TEST(Program, SaysThatGnuplotIsMissingBeforeItSimulates) {
+    const std::filesystem::path folder = makeFolder("no_gnuplot");
+    Outcome outcome;
+    const std::string command = "PATH=/nowhere " TAUTLINE_PROGRAM " run " + kElbow + " --plot --out " + folder.string();
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    char part[4096];
+    while (std::fgets(part, sizeof part, pipe)) outcome.text += part;
+    EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 1);
+    EXPECT_NE(outcome.text.find("--plot needs gnuplot"), std::string::npos) << outcome.text;
+    EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+/** models/paraboloid.osim with the origin moved to where the rising paraboloid swallows it. */
+std::filesystem::path writeModelWithSwallowedEnd() {
+    std::string text = readAll(TAUTLINE_SOURCE_DIR "/models/paraboloid.osim");
+    const std::string location = "<location>-10 2.5 0</location>";
+    text.replace(text.find(location), location.size(), "<location>-3 0.5 0</location>");
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "tautline_swallowed.osim";
+    std::ofstream(file) << text;
+    return file;
+}
+
+TEST(Program, DegradedStepsMakeItFailUnlessTheyAreAllowed) {
+    const std::string file = writeModelWithSwallowedEnd().string();
+    const std::string command = "run " + file + " --duration 3 --out " + makeFolder("swallowed").string();
+    const Outcome refused = runProgram(command);
+    EXPECT_EQ(refused.exitCode, 3) << refused.text;
+    EXPECT_NE(refused.text.find("steps without a verified minimum; first at "), std::string::npos) << refused.text;
+    EXPECT_NE(refused.text.find("end_inside"), std::string::npos) << refused.text;
+    EXPECT_EQ(runProgram(command + " --allow-degraded").exitCode, 0);
+}
+
 TEST(DataProgram, SimulatesASecondOfTheRealArm) {
     TAUTLINE_SKIP_WITHOUT_SHARED(shared);
     const std::filesystem::path folder = makeFolder("arm26");

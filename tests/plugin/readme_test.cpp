@@ -79,7 +79,8 @@ TEST(Readme, CommandsOfTheProgramWork) {
 
 TEST(Readme, NamesFilesThatExist) {
     for (const char* file :
-         {"/models/run", "/tests/run", "/models/figures/path.svg", "/models/elbow.osim", "/models/README.md"})
+         {"/models/run", "/tests/run", "/models/figures/path.svg", "/models/elbow.osim", "/models/paraboloid.osim",
+          "/models/four_surfaces_implicit.osim", "/models/four_surfaces_parametric.osim", "/models/README.md"})
         EXPECT_TRUE(std::ifstream(kRoot + file).good()) << file;
 }
 

@@ -6,6 +6,7 @@ verified ones. Shared by the report program and the tests. */
 #include <vector>
 
 #include "support/scene_file.h"
+#include "tautline/contact_switch.h"
 #include "tautline/path_kinematics.h"
 #include "tautline/path_solver.h"
 #include "tautline/path_verification.h"
@@ -28,13 +29,6 @@ struct SceneResult {
     std::vector<FoundEvent> events;
 };
 
-/** Witness of an obstacle (thesis Cha. 6): negative once its contact has to switch. */
-inline double calcWitness(const PathSolution& path, int element, double size) {
-    const ObstacleContact& contact = path.contacts[element];
-    return contact.isTouched ? contact.start.length / size
-                             : contact.clearance.distance * contact.clearance.scale - kContactTolerance;
-}
-
 /** Follows a scene through time with warm starts and locates its events. */
 class SceneRunner {
 public:
@@ -55,18 +49,12 @@ public:
             const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
             calcVelocity(m_scene, t, m_velocity);
             result.steps.push_back({t, calcLengthRate(path, m_pose, m_velocity), elapsed.count(), path});
-            if (k > 0 && !hasSameContacts(before, path)) locateEvents(before, t - m_scene.dt, t, result.events);
+            if (k > 0 && !haveSameContacts(before, path)) locateEvents(before, t - m_scene.dt, t, result.events);
         }
         return result;
     }
 
 private:
-    static bool hasSameContacts(const PathSolution& a, const PathSolution& b) {
-        for (std::size_t e = 0; e < a.contacts.size(); ++e)
-            if (a.contacts[e].isTouched != b.contacts[e].isTouched) return false;
-        return true;
-    }
-
     PathSolution solveAt(const PathSolution& from, double t) {
         PathSolution path = from;
         calcPose(m_scene, t, m_pose);
@@ -74,19 +62,17 @@ private:
         return path;
     }
 
-    double getSize(int element) const { return m_problem.getElement(element).surface->getSize(); }
-
     /** First time in (from, to] at which a witness is negative while the contact set of `path` is kept. */
     double findFirstCrossing(const PathSolution& path, double from, double to, int& element) {
         const PathSolution atEnd = solveAt(path, to);
         double first = to;
         element = -1;
         for (int e = 1; e + 1 < m_problem.getNumElements(); ++e) {
-            if (!(calcWitness(atEnd, e, getSize(e)) < 0)) continue;
+            if (!(calcContactWitness(m_problem, atEnd, e) < 0)) continue;
             double low = from, high = to;
             while (high - low > 1e-10) {
                 const double middle = 0.5 * (low + high);
-                (calcWitness(solveAt(path, middle), e, getSize(e)) < 0 ? high : low) = middle;
+                (calcContactWitness(m_problem, solveAt(path, middle), e) < 0 ? high : low) = middle;
             }
             if (element < 0 || high < first) first = high, element = e;
         }
@@ -99,14 +85,8 @@ private:
             const double t = findFirstCrossing(path, from, to, element);
             if (element < 0) return;
             path = solveAt(path, t);
-            ObstacleContact& contact = path.contacts[element];
-            events.push_back({t, element - 1, contact.isTouched ? "liftoff" : "touchdown"});
-            if (contact.isTouched) {
-                liftContact(contact);
-            } else {
-                touchAtClearance(*m_problem.getElement(element).surface,
-                                 m_pose.X_GE[element].R.transpose() * path.segments[contact.segment].e, contact);
-            }
+            events.push_back({t, element - 1, path.contacts[element].isTouched ? "liftoff" : "touchdown"});
+            switchContact(m_problem, m_pose, element, path);
             path = solveAt(path, t);
             from = t;
         }

@@ -9,23 +9,22 @@ namespace {
 constexpr double kSpacingPerRoom = 0.3;  ///< node spacing over (obstacle size + distance): 20 nodes per turn
 constexpr double kMovePerRoom = 0.3;     ///< farthest move of a node in a sweep: cannot pass a thin obstacle
 constexpr int kMaxNodes = 4000, kMaxNodesPerElement = 60;  ///< the larger of both is the limit
-constexpr int kArcGuides = 6;                              ///< points taken from each arc of a previous path
 constexpr int kLayingDepth = 6;                 ///< bisections of an edge that would cross a surface: 64 pieces
 constexpr double kLayingDepthTolerance = 0.02;  ///< crossings shallower than this (in sizes) are left to the sweeps
 constexpr std::size_t kNeighbours = 4;          ///< obstacles before and after a portion that its mesh allows for
+constexpr double kTouching = 0.01;              ///< height in sizes below which a node counts as resting on a surface
 constexpr int kSweepsPerMesh = 20;
 constexpr double kMaxRelaxation = 1.9;
 
 }  // namespace
 
-void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const PathSolution* previous) {
+void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const StartGuides& guides) {
     m_nodes.clear();
     m_isFixed.clear();
     m_holds.clear();
     m_numSweeps = 0;
     std::size_t firstOpen = 0;          // holds whose strand has not met its end yet
     int lastFixed = 0, lastGuided = 0;  // lastGuided: the first hold whose surface the next edge may cross
-    std::vector<Vec3> guides;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (!pose.hasElement(e)) continue;
         const bool isPoint = problem.getElement(e).isPoint();
@@ -33,9 +32,8 @@ void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const 
             m_holds.emplace_back();
             m_holds.back().element = e, m_holds.back().X_GS = pose.X_GE[e], m_holds.back().from = lastFixed;
         }
-        findGuides(problem.getElement(e), pose.X_GE[e], previous ? &previous->contacts[e] : nullptr, guides);
         const int current = static_cast<int>(m_holds.size()) - 1;
-        for (const Vec3& guide : guides) {
+        for (const Vec3& guide : guides[e]) {
             if (!m_nodes.empty()) layEdge(problem, lastGuided, m_nodes.back(), guide, kLayingDepth);
             addNode(guide, isPoint);
             if (!isPoint) noteContact(m_holds[current], static_cast<int>(m_nodes.size()) - 1);
@@ -47,26 +45,6 @@ void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const 
     }
     m_extent = 0;
     for (std::size_t k = 0; k + 1 < m_nodes.size(); ++k) m_extent += (m_nodes[k + 1] - m_nodes[k]).norm();
-}
-
-/** Points that the string is laid through: the point itself, the arc of a previous path, or the hint. */
-void ElasticString::findGuides(const PathElement& element, const Pose& X_GE, const ObstacleContact* previous,
-                               std::vector<Vec3>& guides) const {
-    guides.clear();
-    if (element.isPoint()) {
-        guides.push_back(X_GE.p);
-    } else if (previous) {
-        if (!previous->isTouched) return;
-        if (previous->start.length > 0)
-            sampleGeodesic(*element.surface, previous->start, GeodesicOptions{1e-4, 200}, kArcGuides, guides);
-        else
-            guides.push_back(previous->start.point.p);
-        for (Vec3& guide : guides) guide = X_GE * guide;
-        guides.erase(std::remove_if(guides.begin(), guides.end(), [](const Vec3& p) { return !p.allFinite(); }),
-                     guides.end());
-    } else if (element.hint_S) {
-        guides.push_back(X_GE * element.surface->findSurfacePoint(*element.hint_S).p);
-    }
 }
 
 /** Lays the string from A, the last node, towards B around the surfaces that this edge would cross: it is
@@ -218,10 +196,9 @@ void ElasticString::updatePortions(const PathProblem& problem) {
         if (hold.touches()) after = std::min(after, hold.first);
         const Surface& surface = *problem.getElement(hold.element).surface;
         const auto isInside = [&](int node) {
-            return m_isFixed[node] &&
-                   surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) < -1e-10 * surface.getSize();
+            return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) < -1e-10 * surface.getSize();
         };
-        hold.isSwitchedOff = isInside(hold.portionBegin) || isInside(hold.portionEnd);
+        hold.isSwitchedOff = isInside(hold.from) || isInside(hold.to);
     }
 }
 
@@ -263,6 +240,37 @@ void ElasticString::pushOut(const PathProblem& problem, int node, double& room) 
             m_nodes[node] = hold.X_GS * surface.findSurfacePoint(p_S).p;
         noteContact(hold, node);
     }
+}
+
+/** Height of a node above a surface, in its sizes. */
+double ElasticString::calcHeight(const PathProblem& problem, const Hold& hold, int node) const {
+    const Surface& surface = *problem.getElement(hold.element).surface;
+    Vec3 N_S;
+    return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) / surface.getSize();
+}
+
+/** True if the string is clear of the surface somewhere between its first and its last contact. */
+bool ElasticString::leavesAndReturns(const PathProblem& problem, const Hold& hold) const {
+    for (int k = hold.first + 1; hold.touches() && k < hold.last; ++k)
+        if (calcHeight(problem, hold, k) > kTouching) return true;
+    return false;
+}
+
+bool ElasticString::restsOn(const PathProblem& problem, const Hold& hold, int node) const {
+    return !hold.isSwitchedOff && hold.from < node && node < hold.to && calcHeight(problem, hold, node) < kTouching;
+}
+
+StringFault ElasticString::findFault(const PathProblem& problem) const {
+    for (const Hold& hold : m_holds) {
+        if (!hold.touches()) continue;
+        for (const Hold& other : m_holds)
+            for (int k = hold.first; k <= hold.last && &other != &hold; ++k)
+                if (!m_isFixed[k] && restsOn(problem, other, k))
+                    return {StringFault::Kind::Groove, hold.element, other.element};
+    }
+    for (const Hold& hold : m_holds)
+        if (leavesAndReturns(problem, hold)) return {StringFault::Kind::TwoContacts, hold.element, -1};
+    return {};
 }
 
 void ElasticString::push(int element, const Vec3& by_G) {

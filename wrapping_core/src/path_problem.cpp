@@ -1,29 +1,64 @@
 #include "tautline/path_problem.h"
 
+#include <cmath>
+
 #include "tautline/error.h"
+#include "tautline/hole_passage.h"
 #include "tautline/path_solution.h"
 
 namespace tautline {
+namespace {
+
+constexpr int kMaxTurns = 100;  ///< more are a mistake, and a string of many thousand nodes
+
+void checkHint(const StartHint& hint, const Surface& surface, const std::string& name) {
+    if (const auto* near = std::get_if<PassNear>(&hint))
+        require(near->point_S.allFinite(), "path: the hint of obstacle '", name, "' is not finite");
+    if (const auto* side = std::get_if<PassOnSide>(&hint))
+        require(side->direction_S.allFinite() && side->direction_S.norm() > 0, "path: the side of obstacle '", name,
+                "' needs a finite direction that is not zero, got (", side->direction_S.transpose(), ")");
+    if (const auto* winding = std::get_if<WindAround>(&hint))
+        require(std::abs(winding->turns) <= kMaxTurns, "path: the turns about obstacle '", name, "' must be within ",
+                kMaxTurns, ", but are ", winding->turns);
+    if (const auto* thread = std::get_if<ThreadHole>(&hint)) {
+        require(hasHole(surface), "path: obstacle '", name, "', ", surface.getDescription(), ", has no hole to thread");
+        require(std::abs(thread->passages) <= kMaxTurns, "path: the passages through obstacle '", name,
+                "' must be within ", kMaxTurns, ", but are ", thread->passages);
+    }
+}
+
+StartHint toStartHint(const std::optional<Vec3>& hint_S) {
+    return hint_S ? StartHint(PassNear{*hint_S}) : StartHint();
+}
+
+}  // namespace
 
 int PathProblem::addPoint(std::string name) {
-    m_elements.push_back({std::move(name), nullptr, std::nullopt});
+    m_elements.push_back({std::move(name), nullptr, {}});
+    return getNumElements() - 1;
+}
+
+int PathProblem::addObstacle(std::string name, std::shared_ptr<const Surface> surface, const StartHint& hint) {
+    require(surface != nullptr, "path: obstacle '", name, "' has no surface");
+    checkHint(hint, *surface, name);
+    m_elements.push_back({std::move(name), std::move(surface), hint});
     return getNumElements() - 1;
 }
 
 int PathProblem::addObstacle(std::string name, std::shared_ptr<const Surface> surface, std::optional<Vec3> hint_S) {
-    require(surface != nullptr, "path: obstacle '", name, "' has no surface");
-    m_elements.push_back({std::move(name), std::move(surface), std::nullopt});
-    setHint(getNumElements() - 1, hint_S);
-    return getNumElements() - 1;
+    return addObstacle(std::move(name), std::move(surface), toStartHint(hint_S));
+}
+
+void PathProblem::setHint(int element, const StartHint& hint) {
+    require(element >= 0 && element < getNumElements(), "path: no element ", element, " of ", getNumElements());
+    PathElement& obstacle = m_elements[element];
+    require(!obstacle.isPoint(), "path: element '", obstacle.name, "' is a point and takes no hint");
+    checkHint(hint, *obstacle.surface, obstacle.name);
+    obstacle.hint = hint;
 }
 
 void PathProblem::setHint(int element, std::optional<Vec3> hint_S) {
-    require(element >= 0 && element < getNumElements(), "path: no element ", element, " of ", getNumElements());
-    require(!m_elements[element].isPoint(), "path: element '", m_elements[element].name,
-            "' is a point and takes no hint");
-    require(!hint_S || hint_S->allFinite(), "path: the hint of obstacle '", m_elements[element].name,
-            "' is not finite");
-    m_elements[element].hint_S = hint_S;
+    setHint(element, toStartHint(hint_S));
 }
 
 void PathProblem::validate() const {

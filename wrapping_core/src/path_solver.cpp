@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tautline/contact_switch.h"
 #include "tautline/error.h"
 #include "tautline/path_verification.h"
 
@@ -11,11 +12,13 @@ namespace {
 
 constexpr double kMaxMove = 0.5;        ///< of P and of the length in one step, in sizes of the surface
 constexpr double kMaxTurn = 0.6;        ///< of the start direction in one step [rad]
+constexpr double kLeastFraction = 0.1;  ///< of a Newton step within these limits; damped steps go before shorter ones
 constexpr int kMaxHalvings = 6;         ///< of a Newton step that does not lower the error
 constexpr int kMaxDampings = 8;         ///< tenfold increases of the damping of a least-squares step
 constexpr double kEndHeight = 1e-7;     ///< of ends that lie on a surface, in its sizes
 constexpr double kSaddlePush = 0.1;     ///< first sideways push of a string that rests on a saddle, in sizes
 constexpr int kMaxCuspRepairs = 3;      ///< of one contact set search
+constexpr int kMaxOtherSides = 4;       ///< obstacles that are tried from the other side
 constexpr int kMaxSaddles = 4;          ///< pushes, each twice the one before
 constexpr double kLiftLength = -1e-12;  ///< arcs shorter than this (in sizes) are lifted
 
@@ -53,13 +56,19 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
     const PathPose& pose = calcLiftedPose(problem, givenPose);
     path.iterations = path.shots = 0;
     path.wasCold = false;
+    path.fault = {};
     const bool isContinued = !path.isEmpty();
     if (!isContinued) path.contacts.assign(problem.getNumElements(), ObstacleContact());
-    bool isFound = isContinued && findPath(problem, pose, path);
+    switchOffEnclosing(problem, pose, path);
+    bool isFound = isContinued && findPath(problem, pose, PassageRule::AsBefore, path);
     if (!isFound && m_options.allowsColdStart) {
-        m_previous = path;
-        isFound = (isContinued && findColdPath(problem, pose, &m_previous, path)) ||
-                  findColdPath(problem, pose, nullptr, path);
+        isFound = isContinued &&
+                  findColdPath(problem, pose, calcPreviousGuides(problem, pose, path), PassageRule::AsBefore, path);
+        if (!isFound) {
+            StartGuides guides = calcHintGuides(problem, pose);
+            isFound = findColdPath(problem, pose, guides, PassageRule::AsHinted, path) ||
+                      findOtherSides(problem, pose, guides, path);
+        }
     }
     finish(problem, pose, path.pathError <= m_options.pathErrorTolerance, path);
 }
@@ -70,8 +79,15 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     const PathPose& pose = calcLiftedPose(problem, givenPose);
     path.iterations = path.shots = 0;
     path.wasCold = false;
-    const bool isConverged = iterateNewton(problem, pose, path) == Outcome::Converged;
+    switchOffEnclosing(problem, pose, path);
+    m_startLengths.resize(path.contacts.size());
+    for (std::size_t e = 0; e < path.contacts.size(); ++e) m_startLengths[e] = path.contacts[e].start.length;
+    bool isConverged = iterateNewton(problem, pose, path) == Outcome::Converged;
+    for (int repair = 0; isConverged && turnCuspsRound(problem, pose, path); ++repair)
+        isConverged = repair < kMaxCuspRepairs && iterateNewton(problem, pose, path) == Outcome::Converged;
+    m_startLengths.clear();
     updateClearances(problem, pose, path);
+    updatePassages(problem, pose, path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
 }
 
@@ -104,10 +120,10 @@ const PathPose& PathSolver::calcLiftedPose(const PathProblem& problem, const Pat
 }
 
 /** Continues from the contact set and starts in `path`. @return true if a verified minimum was found */
-bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, PassageRule rule, PathSolution& path) {
     for (int repair = 0; iterateContactSet(problem, pose, path); ++repair) {
         const PathVerification verification = verifyPath(problem, pose, path);
-        if (verification.isMinimum()) return true;
+        if (verification.isMinimum()) return hasRightPassages(problem, pose, rule, path);
         if (verification.condition != PathVerification::Condition::ReversedTangent || repair == kMaxCuspRepairs)
             return false;
         turnCuspsRound(problem, pose, path);
@@ -115,56 +131,133 @@ bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, Path
     return false;
 }
 
-/** eps vanishes too where a line meets its arc with e = -t. The tangent point that is meant lies about as far on
-the other side of the line's other end: each such end of an arc is moved by twice the line's length. */
-void PathSolver::turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
-    for (std::size_t j = 0; j < path.segments.size(); ++j) {
-        const StraightSegment& line = path.segments[j];
-        const double shift = 2 * line.length;
+/** eps vanishes too where a line meets its arc with e = -t. Seen from a point at distance l along the line, the
+tangent point that is meant lies 2 atan(kappa l)/kappa back along the arc if that is a circle, or on by the rest of the
+circle: of the two the one that leaves the arc nearer to its length in m_startLengths, if that is known.
+@return true if there was such an end */
+bool PathSolver::turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
+    bool isAny = false;
+    const auto calcShift = [&](int e, const DarbouxFrame& end, double lineLength) {
+        const double curvature = std::abs(end.kappaN), length = path.contacts[e].start.length;
+        const double back = curvature > 0 ? 2 * std::atan(curvature * lineLength) / curvature : 2 * lineLength;
+        if (m_startLengths.empty() || !(curvature > 0)) return -back;
+        const double on = 2 * kPi / curvature - back, start = m_startLengths[e];
+        return std::abs(length - back - start) < std::abs(length + on - start) ? -back : on;
+    };
+    for (const StraightSegment& line : path.segments) {
         if (!problem.getElement(line.toElement).isPoint()) {
             ObstacleContact& contact = path.contacts[line.toElement];
-            if (line.e.dot(pose.X_GE[line.toElement].R * contact.geodesic.P.t) < 0) {
+            const DarbouxFrame& P = contact.geodesic.P;
+            if (line.e.dot(pose.X_GE[line.toElement].R * P.t) < 0) {
+                const double shift = calcShift(line.toElement, P, line.length);
                 const Surface& surface = *problem.getElement(line.toElement).surface;
-                contact.start =
-                    calcCorrectedStart(surface, contact.start, contact.geodesic.P, Vec4(shift, 0, 0, -shift));
+                contact.start = calcCorrectedStart(surface, contact.start, P, Vec4(-shift, 0, 0, shift));
+                isAny = true;
             }
         }
         if (!problem.getElement(line.fromElement).isPoint()) {
             ObstacleContact& contact = path.contacts[line.fromElement];
-            if (line.e.dot(pose.X_GE[line.fromElement].R * contact.geodesic.Q.t) < 0) contact.start.length -= shift;
+            const DarbouxFrame& Q = contact.geodesic.Q;
+            if (line.e.dot(pose.X_GE[line.fromElement].R * Q.t) < 0) {
+                contact.start.length += calcShift(line.fromElement, Q, line.length);
+                isAny = true;
+            }
         }
     }
+    return isAny;
 }
 
 /** Lets a string fall taut along the guides, ever finer, until Newton's method leads on from it to a
 verified minimum. */
-bool PathSolver::findColdPath(const PathProblem& problem, const PathPose& pose, const PathSolution* previous,
-                              PathSolution& path) {
+bool PathSolver::findColdPath(const PathProblem& problem, const PathPose& pose, const StartGuides& guides,
+                              PassageRule rule, PathSolution& path) {
     struct Level {
         double fineness, tolerance;
         int maxSweeps;
     };
-    constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 6000}};
+    constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 6000}, {0.5, 1e-6, 6000}};
     constexpr Level kFromSaddle = {0.5, 1e-6, 4000};  // it slides off slowly
     path.wasCold = true;
-    m_string.lay(problem, pose, previous);
+    m_string.lay(problem, pose, guides);
     for (const Level& level : kLevels) {
-        if (tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, path)) return true;
+        if (tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, rule, path)) return true;
         double push = kSaddlePush;
         for (int i = 0; i < kMaxSaddles && leaveSaddle(problem, pose, push, path); ++i, push *= 2)
-            if (tightenString(problem, pose, kFromSaddle.fineness, kFromSaddle.tolerance, kFromSaddle.maxSweeps, path))
+            if (tightenString(problem, pose, kFromSaddle.fineness, kFromSaddle.tolerance, kFromSaddle.maxSweeps, rule,
+                              path))
                 return true;
     }
+    path.fault = m_string.findFault(problem);
     return false;
+}
+
+/** Where the side that the straight line or a point near the path suggests leads to no minimum (surfaces that overlap
+there, a contact that would have to be two), the other side of one obstacle may. @return false with `path` as it was */
+bool PathSolver::findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides,
+                                PathSolution& path) {
+    int tries = 0;
+    m_previous = path;
+    for (int e = 0; e < problem.getNumElements() && tries < kMaxOtherSides; ++e) {
+        const PathElement& element = problem.getElement(e);
+        if (element.isPoint() || !pose.hasElement(e) || !m_previous.contacts[e].isTouched ||
+            !(std::holds_alternative<std::monostate>(element.hint) || std::holds_alternative<PassNear>(element.hint)))
+            continue;
+        const std::vector<Vec3> hinted = guides[e];
+        guides[e] = {calcOppositeGuide(problem, pose, m_previous, e)};
+        if (guides[e].front().allFinite() && ++tries &&
+            findColdPath(problem, pose, guides, PassageRule::AsHinted, path))
+            return true;
+        guides[e] = hinted;
+    }
+    path = m_previous;
+    return false;
+}
+
+/** Calls visit(surface, contact, passage, element) for every obstacle with a hole, with its passages in `path`. */
+template <class Visitor>
+void visitHoles(const PathProblem& problem, const PathPose& pose, const PathSolution& path, Visitor visit) {
+    std::size_t in = 0;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const PathElement& element = problem.getElement(e);
+        if (element.isPoint() || !pose.hasElement(e)) continue;
+        while (in + 1 < path.segments.size() && path.segments[in].toElement < e) ++in;
+        if (!hasHole(*element.surface)) continue;
+        const ObstacleContact& contact = path.contacts[e];
+        const StraightSegment& out = path.segments[contact.isTouched ? in + 1 : in];
+        visit(element, contact, calcHolePassage(*element.surface, pose.X_GE[e], contact, path.segments[in], out), e);
+    }
+}
+
+bool PathSolver::hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule,
+                                  const PathSolution& path) const {
+    bool isRight = true;
+    visitHoles(problem, pose, path,
+               [&](const PathElement& element, const ObstacleContact& contact, const HolePassage& passage, int) {
+                   const auto* thread = std::get_if<ThreadHole>(&element.hint);
+                   if (rule == PassageRule::AsBefore)
+                       isRight = isRight && !hasLeftHole(*element.surface, contact.passage, passage);
+                   else if (thread)
+                       isRight = isRight && passage.count == thread->passages;
+               });
+    return isRight;
+}
+
+/** Notes the passages through holes, and which were lost since the path that this one was continued from. */
+void PathSolver::updatePassages(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
+    visitHoles(problem, pose, path,
+               [&](const PathElement& element, const ObstacleContact& contact, const HolePassage& passage, int e) {
+                   path.contacts[e].hasLeftHole = hasLeftHole(*element.surface, contact.passage, passage);
+                   path.contacts[e].passage = passage;
+               });
 }
 
 /** @return true if Newton's method leads on from the relaxed string to a verified minimum */
 bool PathSolver::tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
-                               int maxSweeps, PathSolution& path) {
+                               int maxSweeps, PassageRule rule, PathSolution& path) {
     m_string.relax(problem, pose, fineness, tolerance, maxSweeps);
     for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
     m_string.extractContacts(problem, pose, path.contacts);
-    return findPath(problem, pose, path);
+    return findPath(problem, pose, rule, path);
 }
 
 /** A string laid symmetrically stays on a saddle: where the path is one, it is pushed off sideways.
@@ -182,16 +275,17 @@ bool PathSolver::leaveSaddle(const PathProblem& problem, const PathPose& pose, d
 }
 
 /** Newton on one contact set, then lift what has negative length and touch what is penetrated, one at a
-time, until neither is left. @return true if converged so */
+time, until neither is left. The contacts of `path` are those that it was solved with, also where the search comes
+to no end. @return true if converged so */
 bool PathSolver::iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const int maxChanges = 3 * problem.getNumElements() + 10;
     for (int change = 0; change <= maxChanges; ++change) {
-        if (iterateNewton(problem, pose, path) != Outcome::Converged) {
-            updateClearances(problem, pose, path);
-            return false;
-        }
+        const bool isConverged = iterateNewton(problem, pose, path) == Outcome::Converged;
         updateClearances(problem, pose, path);
-        if (!switchContacts(problem, pose, path)) return true;
+        if (!isConverged) return false;
+        const int worst = findWorstContact(problem, pose, path);
+        if (worst < 0) return true;
+        if (change < maxChanges) switchContact(problem, pose, worst, path);
     }
     return false;
 }
@@ -245,6 +339,9 @@ bool PathSolver::tryStep(const PathProblem& problem, const PathPose& pose, doubl
 bool PathSolver::tryNewtonStep(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     if (!calcNewtonStep()) return false;
     double fraction = calcStepFraction(problem);
+    // So long a step means that the Jacobian is next to singular: a chord near a sphere's centre can turn freely.
+    if (fraction < kLeastFraction && tryDampedSteps(problem, pose, path)) return true;
+    if (fraction < kLeastFraction && !calcNewtonStep()) return false;
     for (int halving = 0; halving <= kMaxHalvings; ++halving, fraction /= 2)
         if (tryStep(problem, pose, fraction, path)) return true;
     return false;
@@ -328,31 +425,42 @@ void PathSolver::storeChain(PathSolution& path) const {
     path.length = calcLength(m_chain);
 }
 
-/** Clearances of all lifted obstacles on the segments that pass them, and which ends lie inside. */
+/** Switches off the obstacles in which an end of their strand lies: no string lies over them. */
+void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
+    const auto isInside = [&](int point, int e) {
+        Vec3 N_S;
+        const Surface& surface = *problem.getElement(e).surface;
+        const double height = surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
+        return height < kContactTolerance * surface.getSize();
+    };
+    int first = 0;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!problem.getElement(e).isPoint() || !pose.hasElement(e)) continue;
+        for (int obstacle = first + 1; obstacle < e; ++obstacle)
+            if (!problem.getElement(obstacle).isPoint() && pose.hasElement(obstacle))
+                path.contacts[obstacle].isSwitchedOff = isInside(first, obstacle) || isInside(e, obstacle);
+        first = e;
+    }
+}
+
+/** Clearances of all lifted obstacles on the segments that pass them. */
 void PathSolver::updateClearances(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     int segment = 0;
-    Vec3 N_S;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const PathElement& element = problem.getElement(e);
         if (element.isPoint() || !pose.hasElement(e)) continue;
         while (segment + 1 < static_cast<int>(path.segments.size()) && path.segments[segment].toElement < e) ++segment;
         ObstacleContact& contact = path.contacts[e];
         const Surface& surface = *element.surface;
-        const StraightSegment& in = path.segments[segment];
-        const StraightSegment& out = contact.isTouched ? path.segments[segment + 1] : in;
-        const auto isInside = [&](int end) {
-            return problem.getElement(end).isPoint() && surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[end].p),
-                                                                           N_S) < kContactTolerance * surface.getSize();
-        };
-        contact.isSwitchedOff = isInside(in.fromElement) || isInside(out.toElement);
         if (contact.isTouched) continue;
+        const StraightSegment& line = path.segments[segment];
         contact.segment = segment;
-        findSegmentClearance(surface, pose.X_GE[e], in.A, in.B, contact.clearance);
+        findSegmentClearance(surface, pose.X_GE[e], line.A, line.B, contact.clearance);
     }
 }
 
-/** Switches the contact that violates its condition most. @return false if none does */
-bool PathSolver::switchContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+/** @return the obstacle whose contact violates its condition most, those that must lift first; -1 if none does */
+int PathSolver::findWorstContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) const {
     int lift = -1, touch = -1;
     double shortest = kLiftLength, deepest = kContactTolerance;
     for (int e = 0; e < problem.getNumElements(); ++e) {
@@ -367,20 +475,11 @@ bool PathSolver::switchContacts(const PathProblem& problem, const PathPose& pose
             if (depth < deepest) deepest = depth, touch = e;
         }
     }
-    if (lift >= 0) {
-        liftContact(path.contacts[lift]);
-        return true;
-    }
-    if (touch >= 0) {
-        touchAtClearance(*problem.getElement(touch).surface,
-                         pose.X_GE[touch].R.transpose() * path.segments[path.contacts[touch].segment].e,
-                         path.contacts[touch]);
-        return true;
-    }
-    return false;
+    return lift >= 0 ? lift : touch;
 }
 
 void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) {
+    updatePassages(problem, pose, path);
     path.status = PathStatus::Solved;
     for (int e = 0; e < problem.getNumElements(); ++e)
         if (!problem.getElement(e).isPoint() && pose.hasElement(e) && path.contacts[e].isSwitchedOff)
@@ -394,25 +493,6 @@ void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool i
         path.status = PathStatus::LeftDomain;
     else if (!verification.isMinimum())
         path.status = PathStatus::NotMinimum;
-}
-
-void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& contact) {
-    const LineClearance& clearance = contact.clearance;
-    const DarbouxFrame frame = surface.calcFrame(clearance.C, e_S);
-    // The chord that the line cuts from the osculating circle stands for the arc.
-    const double curvature = std::max(std::abs(frame.kappaN), 1e-3 * clearance.scale);
-    const double half = std::min(std::sqrt(2 * std::max(0.0, -clearance.distance) / curvature), 1 / curvature);
-    contact.isTouched = true;
-    contact.start.point = surface.calcDisplacedPoint(clearance.C, -half * frame.t);
-    contact.start.tangent = surface.calcFrame(contact.start.point, frame.t).t;
-    contact.start.length = 2 * half;
-}
-
-void liftContact(ObstacleContact& contact) {
-    contact.isTouched = false;
-    contact.clearance = LineClearance();
-    contact.clearance.keptC = contact.start.point;
-    contact.clearance.keptN = contact.geodesic.P.N;
 }
 
 PathSolution solvePath(const PathProblem& problem, const PathPose& pose, const PathSolverOptions& options) {

@@ -64,6 +64,18 @@ double Surface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length)
     return 0.5 * (a + b);
 }
 
+int Surface::countHoleCrossings(const Vec3&, const Vec3&) const {
+    return 0;
+}
+
+int countDiscCrossings(double radius, const Vec3& A_S, const Vec3& B_S) {
+    const bool isAbove = A_S.z() > 0;
+    if (isAbove == (B_S.z() > 0)) return 0;
+    const Vec3 crossing = A_S + A_S.z() / (A_S.z() - B_S.z()) * (B_S - A_S);
+    if (!(crossing.head<2>().norm() < radius)) return 0;
+    return isAbove ? -1 : 1;
+}
+
 void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const GeodesicOptions& options, int count,
                     std::vector<Vec3>& points_S) {
     require(count >= 2, "sampleGeodesic: needs at least 2 points, got ", count);

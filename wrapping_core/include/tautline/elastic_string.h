@@ -5,14 +5,14 @@ the basin of the minimum where Newton-like steps from a poor guess do not. Milli
 
 #include "tautline/path_problem.h"
 #include "tautline/path_solution.h"
+#include "tautline/start_guides.h"
 
 namespace tautline {
 
 class ElasticString {
 public:
-    /** Lays the string from origin to insertion along its guides: the arcs of `previous` that touch (in the
-    poses of today), else the hints of the problem; obstacles without either guide nothing. */
-    void lay(const PathProblem& problem, const PathPose& pose, const PathSolution* previous);
+    /** Lays the string from origin to insertion along its guides, and around the surfaces that lie between. */
+    void lay(const PathProblem& problem, const PathPose& pose, const StartGuides& guides);
 
     /** Relaxes by projected successive over-relaxation until nodes move less than `tolerance` of their
     spacing per sweep, or `maxSweeps`. @param fineness   spacing of nodes relative to the default */
@@ -24,6 +24,9 @@ public:
     /** Contact set, geodesic starts (touched) and switched-off obstacles as the string shows them. */
     void extractContacts(const PathProblem& problem, const PathPose& pose,
                          std::vector<ObstacleContact>& contacts) const;
+
+    /** Why the relaxed string is no smooth path with one arc on each surface, if it is not. */
+    StringFault findFault(const PathProblem& problem) const;
 
     const std::vector<Vec3>& getNodes() const { return m_nodes; }
     int getNumSweeps() const { return m_numSweeps; }
@@ -40,8 +43,6 @@ private:
         bool touches() const { return first >= 0; }
     };
 
-    void findGuides(const PathElement& element, const Pose& X_GE, const ObstacleContact* previous,
-                    std::vector<Vec3>& guides) const;
     void layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth);
     void addNode(const Vec3& x, bool isFixed);
     static void noteContact(Hold& hold, int node);
@@ -51,6 +52,9 @@ private:
     std::size_t findFirstHold(int node) const;
     double calcRoom(const PathProblem& problem, const Vec3& x, int node) const;
     void pushOut(const PathProblem& problem, int node, double& room);
+    double calcHeight(const PathProblem& problem, const Hold& hold, int node) const;
+    bool leavesAndReturns(const PathProblem& problem, const Hold& hold) const;
+    bool restsOn(const PathProblem& problem, const Hold& hold, int node) const;
 
     std::vector<Vec3> m_nodes;
     std::vector<char> m_isFixed;

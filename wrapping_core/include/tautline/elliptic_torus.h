@@ -20,6 +20,10 @@ public:
     double getSize() const override { return m_size; }
     std::string getDescription() const override;
 
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return countDiscCrossings(m_ringRadius, A_S, B_S);
+    }
+
     /** f = c/2 ((rho - R)^2/a^2 + z^2/b^2 - 1), c the lesser semi-axis; on the axis, no part of the surface, the
     gradient is that of a point beside it. */
     ImplicitValue calcImplicit(const Vec3& p) const {

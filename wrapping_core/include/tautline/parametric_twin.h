@@ -23,6 +23,9 @@ public:
     double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override {
         return m_twin.findLowestPoint(A_S, e_S, length);
     }
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return m_twin.countHoleCrossings(A_S, B_S);
+    }
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override {
         return calcCoordinates(m_twin.findSurfacePoint(p_S).p);
     }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "tautline/start_hint.h"
 #include "tautline/surface.h"
 
 namespace tautline {
@@ -12,7 +13,7 @@ Its frame E is posed in ground by the caller; a point sits at E's origin, a surf
 struct PathElement {
     std::string name;
     std::shared_ptr<const Surface> surface;  ///< null: a point
-    std::optional<Vec3> hint_S;              ///< a point near which the path shall run; none: found by the solver
+    StartHint hint;                          ///< how the path runs about it when it is laid anew
     bool isPoint() const { return surface == nullptr; }
 };
 
@@ -21,11 +22,15 @@ class PathProblem {
 public:
     /** Appends a point. @return its element index */
     int addPoint(std::string name);
-    /** Appends an obstacle. @param hint_S   finite, or none. InvalidInput if surface is null.
-    @return its element index */
-    int addObstacle(std::string name, std::shared_ptr<const Surface> surface,
-                    std::optional<Vec3> hint_S = std::nullopt);
+    /** Appends an obstacle. @return its element index. InvalidInput if surface is null, and as setHint() */
+    int addObstacle(std::string name, std::shared_ptr<const Surface> surface, const StartHint& hint = {});
 
+    /** As above. @param hint_S   a point near which the path shall run; none: nothing is known */
+    int addObstacle(std::string name, std::shared_ptr<const Surface> surface, std::optional<Vec3> hint_S);
+
+    /** InvalidInput if a number of the hint is not finite, a direction has no length, or the surface has no hole
+    to thread. */
+    void setHint(int element, const StartHint& hint);
     void setHint(int element, std::optional<Vec3> hint_S);
 
     /** InvalidInput unless the path begins and ends with a point. */

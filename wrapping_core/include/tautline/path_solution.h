@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "tautline/surface.h"
+#include "tautline/hole_passage.h"
 
 namespace tautline {
 
@@ -10,7 +10,8 @@ enum class PathStatus {
     Solved,        ///< max |eps| <= tolerance and all conditions of PathVerification hold
     NotMinimum,    ///< max |eps| <= tolerance, but the path is not a local minimum (pressure, tangent, conjugate point)
     LeftDomain,    ///< a contact lies outside its surface's domain
-    EndInside,     ///< a fixed point lies below an obstacle's surface by more than d_tol; that obstacle is switched off
+    EndInside,     ///< a fixed point lies below the surface of an obstacle of its strand by more than d_tol; that
+                   ///< obstacle is switched off
     NotConverged,  ///< max |eps| > tolerance after the allowed iterations; the best path met is returned
 };
 
@@ -20,11 +21,13 @@ const char* getName(PathStatus status);
 /** What one obstacle does in a solved path. */
 struct ObstacleContact {
     bool isTouched = false;
-    bool isSwitchedOff = false;  ///< an end of its segment is inside it
+    bool isSwitchedOff = false;  ///< an end of its strand is inside it
     GeodesicStart start;         ///< in S; of the arc, or of the last arc while lifted
     Geodesic geodesic;           ///< in S; only while touched
     LineClearance clearance;     ///< in S; of the straight line that passes the surface while lifted
     int segment = -1;            ///< while lifted: index of that straight segment
+    HolePassage passage;         ///< of surfaces that have a hole
+    bool hasLeftHole = false;    ///< the path no longer goes through it as the one did that it was continued from
 };
 
 /** A straight segment between fixed points and arcs; A and B in ground. */
@@ -33,6 +36,18 @@ struct StraightSegment {
     Vec3 A = Vec3::Constant(kNaN), B = Vec3::Constant(kNaN);
     Vec3 e = Vec3::Constant(kNaN);  ///< unit vector from A to B
     double length = kNaN;           ///< [m]
+};
+
+/** Why a string that has fallen taut is not one smooth path with one arc on each surface. */
+struct StringFault {
+    enum class Kind {
+        None,
+        Groove,       ///< it lies in the groove where two surfaces meet: a kink
+        TwoContacts,  ///< it touches one surface, leaves it, and touches it again
+    };
+    Kind kind = Kind::None;
+    int element = -1;  ///< the obstacle concerned
+    int other = -1;    ///< the second surface of a groove
 };
 
 /** A path: always finite and drawable, whatever the status. `contacts` has one entry per element of the
@@ -46,6 +61,7 @@ struct PathSolution {
     bool wasCold = false;     ///< the start was found anew (elastic string), not continued
     std::vector<ObstacleContact> contacts;
     std::vector<StraightSegment> segments;
+    StringFault fault;                 ///< where the elastic string led to no solution: why
     std::vector<double> errorHistory;  ///< max |eps| before each Newton iteration of the last run
 
     bool isEmpty() const { return contacts.empty(); }

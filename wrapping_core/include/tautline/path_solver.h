@@ -6,10 +6,6 @@
 
 namespace tautline {
 
-/** d_tol of thesis Sec. 6.2, normalized by max(|kappa_n|, 1/size): the one constant for switching contact,
-verifying and flagging it. Tiny, since a penetration h at touchdown makes the rate jump with h. */
-inline constexpr double kContactTolerance = -1e-10;
-
 struct PathSolverOptions {
     double pathErrorTolerance = 1e-11;  ///< on max |eps|; what Newton leaves is its square
     int maxIterations = 40;             ///< Newton iterations for one contact set
@@ -42,15 +38,21 @@ public:
 
 private:
     enum class Outcome { Converged, Failed };
+    /** What says how often the path goes through the holes of its obstacles. */
+    enum class PassageRule { AsBefore, AsHinted };
 
     const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
-    void turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
+    bool turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
-                       int maxSweeps, PathSolution& path);
+                       int maxSweeps, PassageRule rule, PathSolution& path);
     bool leaveSaddle(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
-    bool findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    bool findColdPath(const PathProblem& problem, const PathPose& pose, const PathSolution* previous,
+    bool findPath(const PathProblem& problem, const PathPose& pose, PassageRule rule, PathSolution& path);
+    bool findColdPath(const PathProblem& problem, const PathPose& pose, const StartGuides& guides, PassageRule rule,
                       PathSolution& path);
+    bool findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides, PathSolution& path);
+    bool hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule,
+                          const PathSolution& path) const;
+    void updatePassages(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     Outcome iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool calcNewtonStep();
@@ -61,7 +63,8 @@ private:
     bool tryDampedSteps(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     double calcStepFraction(const PathProblem& problem) const;
     void applyStep(const PathProblem& problem, double fraction);
-    bool switchContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    int findWorstContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) const;
+    void switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     void updateClearances(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     void storeChain(PathSolution& path) const;
     void finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
@@ -72,16 +75,10 @@ private:
     BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
     BandedSolver m_normal{2 * kPathBandwidth, 2 * kPathBandwidth};  ///< J^T J + damping, only when Newton fails
     std::vector<double> m_eps, m_trialEps, m_step;
+    std::vector<double> m_startLengths;  ///< of the arcs by element, while contacts are kept
     PathSolution m_previous;
     PathPose m_liftedPose;
 };
-
-/** Puts a lifted obstacle in contact where its clearance was measured: the start of an arc for Newton's
-method, of length zero where the line just touches. @param e_S   direction of the line, in S */
-void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& contact);
-
-/** Takes a touched obstacle out of contact; its clearance is watched on the side where the arc began. */
-void liftContact(ObstacleContact& contact);
 
 /** One-off: a cold start from the problem's hints. */
 PathSolution solvePath(const PathProblem& problem, const PathPose& pose, const PathSolverOptions& options = {});

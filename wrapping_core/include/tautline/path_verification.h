@@ -30,6 +30,10 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
 /** A sentence for people, with the obstacle's name. */
 std::string describe(const PathVerification& verification, const PathProblem& problem);
 
+/** Why a path has the status that it has, in a sentence for people that names the elements concerned.
+@param path   as solve() left it at this pose */
+std::string explainStatus(const PathProblem& problem, const PathPose& pose, const PathSolution& path);
+
 /** Signed distance between the straight segment A B (ground) and a surface (thesis Cha. 6), on the side of
 `clearance.keptN` if that is set, else on the side that the segment suggests. Where the critical point D is
 not between the ends, the height of the nearer end counts.

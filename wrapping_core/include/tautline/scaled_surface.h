@@ -54,6 +54,10 @@ public:
     double calcDomainMargin(const SurfacePoint& point) const override {
         return m_scaling.m_base.calcDomainMargin({m_scaling.m_inverse.cwiseProduct(point.p)});
     }
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return m_scaling.m_base.countHoleCrossings(m_scaling.m_inverse.cwiseProduct(A_S),
+                                                   m_scaling.m_inverse.cwiseProduct(B_S));
+    }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_scaling.calcHeight(p_S, N_S); }
 
     /** By the chain rule; f stays a length by the least factor. */
@@ -81,6 +85,10 @@ public:
     bool isConvex() const override { return m_scaling.m_base.isConvex(); }
     double calcDomainMargin(const SurfacePoint& point) const override {
         return m_scaling.m_base.calcDomainMargin({m_scaling.m_inverse.cwiseProduct(point.p), point.uv, point.chart});
+    }
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return m_scaling.m_base.countHoleCrossings(m_scaling.m_inverse.cwiseProduct(A_S),
+                                                   m_scaling.m_inverse.cwiseProduct(B_S));
     }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_scaling.calcHeight(p_S, N_S); }
 

@@ -76,6 +76,10 @@ public:
     presses on it everywhere: such checks are then skipped. */
     virtual bool isConvex() const { return false; }
 
+    /** How often the segment A B passes the surface's hole: 1 along +z of S, -1 against it. A surface with a hole has
+    it about the z axis, spanned by a disc in the plane z = 0 whose rim lies inside the tube. */
+    virtual int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const;
+
     /** How far inside the domain on which the surface is defined the point lies: smooth across the domain's edge, there
     zero, negative outside, in a unit of the surface's own choice; infinite where there is no edge. */
     virtual double calcDomainMargin(const SurfacePoint&) const { return kInfinity; }
@@ -91,6 +95,9 @@ public:
         return false;
     }
 };
+
+/** countHoleCrossings() for a hole spanned by the disc rho < radius in the plane z = 0. */
+int countDiscCrossings(double radius, const Vec3& A_S, const Vec3& B_S);
 
 /** Points along a geodesic, ends included, by shooting from each to the next. Needs count >= 2.
 @param points_S   resized to `count` */

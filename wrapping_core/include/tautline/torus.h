@@ -34,6 +34,9 @@ public:
         value.hessian /= m_tubeRadius;
         return value;
     }
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return countDiscCrossings(m_ringRadius, A_S, B_S);
+    }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
 
 private:

@@ -27,6 +27,8 @@ public:
         bool locked = false;
         /** Of the constraint that holds a locked coordinate. */
         SimTK::ConstraintIndex lock;
+        /** Motion as a function of time, enforced; none if locked or free. */
+        std::optional<ScalarFunction> prescribedMotion;
     };
 
     const SimTK::SimbodyMatterSubsystem& getMatter() const { return *m_matter; }
@@ -37,10 +39,11 @@ public:
     /** In the order of the file. */
     const std::vector<std::string>& getCoordinateNames() const { return m_coordinateNames; }
 
-    /** Sets all coordinates and speeds to their defaults, then lets the couplers have their way. */
+    /** Sets all coordinates and speeds to their defaults, driven ones to their motion at the state's time, then
+     * lets the couplers have their way. */
     void setDefaultPose(SimTK::State& state) const;
-    /** Does not clip to the range, clamped or not. A locked coordinate stays locked at the value.
-     */
+    /** Does not clip to the range, clamped or not. A locked coordinate stays locked at the value; a driven one
+     * goes where its motion says as soon as the state is simulated. */
     void setCoordinate(SimTK::State& state, const std::string& name, double value) const;
     double getCoordinate(const SimTK::State& state, const std::string& name) const;
     void setCoordinateSpeed(SimTK::State& state, const std::string& name, double speed) const;
@@ -64,7 +67,8 @@ private:
 
 /**
  * Adds the bodies, joints, locks, prescribed motions and constraints of a model to a matter
- * subsystem. Every coordinate becomes a q whose u is its derivative. Forces are not added. The
+ * subsystem. Every coordinate becomes a q whose u is its derivative. A joint all of whose coordinates are
+ * prescribed is driven exactly, by a Motion; other prescribed coordinates by constraints. Forces are not added. The
  * defaults of the model are not those of the system: call BuiltModel::setDefaultPose().
  *
  * @throws ModelError, before anything is added, if bodies are not joined to the ground in a tree,

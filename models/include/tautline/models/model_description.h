@@ -107,6 +107,23 @@ struct TorusShape {
     double ringRadius = 0.0;
 };
 
+/** z = x^2/a + y^2/b; the path runs below it, on the convex side. */
+struct ParaboloidShape {
+    double a = 0.0;
+    double b = 0.0;
+};
+/** Ring in the xy plane whose tube has an elliptic section; the path goes through the hole. */
+struct EllipticTorusShape {
+    double ringRadius = 0.0;
+    double radialSemiAxis = 0.0;
+    double axialSemiAxis = 0.0;
+};
+using WrapShape =
+    std::variant<CylinderShape, SphereShape, EllipsoidShape, TorusShape, ParaboloidShape, EllipticTorusShape>;
+
+/** As which kind of surface geodesics are computed: f(p) = 0 or x(u, v). The paths are the same. */
+enum class SurfaceForm { Implicit, Parametric };
+
 /** The side of a wrap object, in its own frame, on which a path must pass. */
 enum class Quadrant { All, PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
 
@@ -117,7 +134,8 @@ struct WrapObject {
     RigidOffset X_BW;
     Quadrant quadrant = Quadrant::All;
     bool active = true;
-    std::variant<CylinderShape, SphereShape, EllipsoidShape, TorusShape> shape;
+    WrapShape shape;
+    SurfaceForm form = SurfaceForm::Implicit;
     int line = 0;
 };
 
@@ -145,6 +163,14 @@ struct PathPoint {
 
 enum class WrapMethod { Hybrid, Midpoint, Axial };
 
+/** A geodesic from which the iteration of a path may start, in the frame of the wrap object. */
+struct WrapStart {
+    Triple point{};
+    Triple direction{};
+    double length = 0.0;
+    int line = 0;
+};
+
 struct PathWrap {
     std::string name;
     /** Index into ModelDescription::wrapObjects. */
@@ -152,12 +178,17 @@ struct PathWrap {
     WrapMethod method = WrapMethod::Hybrid;
     /** First and last point between which the path may wrap, counted from 1; -1 is the end. */
     std::array<int, 2> range{-1, -1};
+    /** A point near which the path runs at first, in the frame of the wrap object. */
+    std::optional<Triple> hint;
+    std::optional<WrapStart> start;
     int line = 0;
 };
 
 struct MusclePath {
     std::vector<PathPoint> points;
     std::vector<PathWrap> wraps;
+    /** The wraps of one segment follow each other along the path as they do in the list. */
+    bool areWrapsInOrder = false;
     int line = 0;
 };
 
@@ -187,6 +218,17 @@ struct Muscle {
     int line = 0;
 };
 
+/** An elastic string: tension = stiffness * stretch * (1 + dissipation * rate), never negative. */
+struct PathSpring {
+    std::string name;
+    bool appliesForce = true;
+    double restingLength = 0.0;
+    double stiffness = 0.0;
+    double dissipation = 0.0;
+    MusclePath path;
+    int line = 0;
+};
+
 /** Elements of one type in owners of one type that were read over, and why. */
 struct SkippedElements {
     std::string element;
@@ -207,13 +249,15 @@ struct ModelDescription {
     std::vector<ModelConstraint> constraints;
     std::vector<WrapObject> wrapObjects;
     std::vector<Muscle> muscles;
+    std::vector<PathSpring> springs;
     std::vector<SkippedElements> skipped;
 };
 
-/** The body, joint, coordinate, muscle or wrap object of a name; null if there is none. */
+/** The body, coordinate, muscle, spring or wrap object of a name; null if there is none. */
 const Body* findBody(const ModelDescription& model, const std::string& name);
 const Coordinate* findCoordinate(const ModelDescription& model, const std::string& name);
 const Muscle* findMuscle(const ModelDescription& model, const std::string& name);
+const PathSpring* findSpring(const ModelDescription& model, const std::string& name);
 const WrapObject* findWrapObject(const ModelDescription& model, const std::string& name);
 
 }  // namespace tautline::models

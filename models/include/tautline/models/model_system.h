@@ -4,19 +4,21 @@
 #include <memory>
 
 #include "tautline/models/model_builder.h"
+#include "tautline/models/path_start.h"
 #include "tautline/models/wrap_binding.h"
 #include "tautline/simbody/cable.h"
+#include "tautline/simbody/cable_forces.h"
 #include "tautline/simbody/cable_subsystem.h"
 #include "tautline/simbody/hill_muscle.h"
 
 namespace tautline::models {
 
 /**
- * A model as a Simbody system that can be simulated: bodies and joints, gravity, and for each muscle a
- * cable over its wrap objects with a Hill-type muscle that pulls at it.
+ * A model as a Simbody system that can be simulated: bodies and joints, gravity, and for each muscle or path
+ * spring a cable over its wrap objects with a Hill-type muscle or an elastic string that pulls at it.
  *
- * @throws ModelError as buildMultibody() does, and for muscle points that a cable cannot hold yet
- * (moving and conditional ones), naming the point and its line.
+ * @throws ModelError as buildMultibody() does, and for a path whose first or last point is conditional,
+ * naming the point and its line.
  */
 class ModelSystem {
 public:
@@ -27,6 +29,26 @@ public:
         Cable cable;
         HillMuscle muscle;
         std::vector<BoundWrap> wraps;
+        PathStart start;
+    };
+    struct SpringSlot {
+        std::string name;
+        /** "/forceset/<name>". */
+        std::string path;
+        Cable cable;
+        ElasticStringForce spring;
+        std::vector<BoundWrap> wraps;
+        PathStart start;
+    };
+    /** What muscles and springs have in common; valid as long as the system. */
+    struct PathView {
+        const std::string& name;
+        const std::string& path;
+        const Cable& cable;
+        const CableForce& force;
+        /** In the order of the cable's obstacles. */
+        const std::vector<BoundWrap>& wraps;
+        const PathStart& start;
     };
 
     explicit ModelSystem(const ModelDescription& description);
@@ -38,6 +60,9 @@ public:
     const BuiltModel& getModel() const { return m_model; }
     const std::vector<MuscleSlot>& getMuscles() const { return m_muscles; }
     std::vector<MuscleSlot>& updMuscles() { return m_muscles; }
+    const std::vector<SpringSlot>& getSprings() const { return m_springs; }
+    /** The muscles, then the springs, each in the order of the file. */
+    std::vector<PathView> getPaths() const;
 
     /** Realizes the topology and returns a state in the model's default pose. Call it once everything has
      * been added to the system. */
@@ -47,9 +72,16 @@ public:
      * Moment arm -dl/dq of a muscle about a coordinate [m], coupled coordinates moving along. Needs
      * Stage::Position.
      */
-    double calcMomentArm(const SimTK::State& state, const MuscleSlot& muscle, const std::string& coordinate) const;
+    double calcMomentArm(const SimTK::State& state, const MuscleSlot& muscle, const std::string& coordinate) const {
+        return calcMomentArm(state, muscle.cable, coordinate);
+    }
+    /** The same for any cable of the system. */
+    double calcMomentArm(const SimTK::State& state, const Cable& cable, const std::string& coordinate) const;
 
 private:
+    Cable addCable(const ModelDescription& description, const std::string& kind, const std::string& name,
+                   const MusclePath& path, const std::vector<BoundWrap>& wraps);
+    void addSpring(const ModelDescription& description, const PathSpring& spring, const std::vector<BoundWrap>& wraps);
     void addMuscle(const ModelDescription& description, const Muscle& muscle, const std::vector<BoundWrap>& wraps);
 
     SimTK::MultibodySystem m_system;
@@ -59,6 +91,7 @@ private:
     BuiltModel m_model;
     std::vector<CoordinateCoupler> m_couplers;
     std::vector<MuscleSlot> m_muscles;
+    std::vector<SpringSlot> m_springs;
 };
 
 /** A muscle's parameters in the terms of HillMuscle; what the file leaves out stays at its default. */

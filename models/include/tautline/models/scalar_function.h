@@ -29,6 +29,8 @@ public:
      * the first four knots, likewise at the end; a parabola for three knots, a line for two.
      */
     static ScalarFunction simmSpline(std::vector<double> x, std::vector<double> y);
+    /** amplitude sin(omega x + phase) + offset */
+    static ScalarFunction sine(double amplitude, double omega, double phase, double offset);
 
     /** This function times a factor. */
     ScalarFunction scaledBy(double factor) const;
@@ -52,10 +54,15 @@ private:
         double endSlope;
     };
 
+    struct Wave {
+        double amplitude, omega, phase, offset;
+    };
+
     static double calcPolynomial(const Polynomial& polynomial, int order, double x);
     static double calcCubics(const Cubics& cubics, int order, double x);
+    static double calcWave(const Wave& wave, int order, double x);
 
-    std::variant<Polynomial, Cubics> m_form;
+    std::variant<Polynomial, Cubics, Wave> m_form;
     double m_factor = 1.0;
 };
 

@@ -17,9 +17,11 @@ struct BoundWrap {
     std::size_t wrap = 0;
     /** Between points `segment` and `segment + 1`, counted from 0. */
     std::size_t segment = 0;
+    SurfaceForm form = SurfaceForm::Implicit;
     /** Where the object stands along the segment in the default pose, 0 to 1: the order of several. */
     double place = 0.0;
-    /** A surface point on the side that the quadrant asks for, in the object's frame; none for all. */
+    /** The hint or start that the file gives, else a surface point on the side that the quadrant asks for, in
+    the object's frame; none for all. */
     std::optional<SimTK::Vec3> hint_W;
     /** In how many of the sampled poses the path wraps here, and on any other segment. */
     int numEngaged = 0, numElsewhere = 0;

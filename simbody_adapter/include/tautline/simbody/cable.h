@@ -10,6 +10,7 @@
 #include "tautline/path_solver.h"
 #include "tautline/path_verification.h"
 #include "tautline/simbody/cable_subsystem.h"
+#include "tautline/simbody/moving_station.h"
 
 namespace tautline {
 
@@ -27,6 +28,7 @@ struct ContactEvent {
     CableElementIndex obstacle;
     Kind kind;
     SimTK::Real lengthBefore, lengthAfter;  ///< of the cable [m]
+    SimTK::Real rateBefore, rateAfter;      ///< its rate [m/s]
 };
 
 /** What a cable's solves have cost since construction or the last reset, over all States and threads. */
@@ -66,6 +68,19 @@ public:
     CableElementIndex addViaPoint(const SimTK::MobilizedBody& body, const SimTK::Vec3& station_B,
                                   std::string name = "");
 
+    /** Adds an eyelet that moves on its body. */
+    CableElementIndex addMovingPoint(const SimTK::MobilizedBody& body, std::shared_ptr<const MovingStation> station,
+                                     std::string name = "");
+    /** Adds an eyelet that holds the cable only while a condition is true, else is passed over: the length jumps
+    where the condition changes, and studies stop a step there.
+    @param isActive   of positions and time of a State whose bodies' poses are known; called by many threads at
+                      once */
+    CableElementIndex addConditionalPoint(const SimTK::MobilizedBody& body, const SimTK::Vec3& station_B,
+                                          std::function<bool(const SimTK::State&)> isActive, std::string name = "");
+    /** Lets an end move on its body; the station given before no longer counts. */
+    void setMovingOrigin(std::shared_ptr<const MovingStation> station);
+    void setMovingInsertion(std::shared_ptr<const MovingStation> station);
+
     /** Adds an obstacle after what has been added so far, and the event handler that watches it.
     @param X_BS      pose of the surface frame S on the body
     @param surface   may be shared between obstacles
@@ -103,7 +118,7 @@ public:
     /** @throws InvalidInput if no element has this name */
     CableElementIndex findElement(const std::string& name) const;
     SimTK::MobilizedBodyIndex getElementBody(CableElementIndex element) const;
-    /** X_BE: the station of a point, the pose of a surface. */
+    /** X_BE: the station of a point, the pose of a surface. Of a moving point not its present one. */
     SimTK::Transform getElementFrame(CableElementIndex element) const;
     /** Null for points. */
     std::shared_ptr<const Surface> getSurface(CableElementIndex element) const;
@@ -121,6 +136,11 @@ public:
     time-stepping study does this by itself when it initializes. */
     void fixContacts(SimTK::State& state) const;
 
+    /** Fixes the contact set of a given path, from which the next solve continues: a study may so start from a
+    path of one's own, such as one iterated from geodesics chosen by hand.
+    @param path   one contact per element; InvalidInput otherwise */
+    void continueFrom(SimTK::State& state, const PathSolution& path) const;
+
     /** Lets every realize(Position) find the contact set anew. Call it after moving a State that comes from
     an integrator to another pose. */
     void releaseContacts(SimTK::State& state) const;
@@ -137,6 +157,10 @@ public:
     /** Whether the path is a local minimum, contacts included, and if not, why: with fixed contacts
     getStatus() tells only whether the path error vanishes. */
     PathVerification calcVerification(const SimTK::State& state) const;
+    /** False for a conditional point that is passed over. */
+    bool isActive(const SimTK::State& state, CableElementIndex element) const;
+    /** Where an element's origin is on its body, moving or not [m]. */
+    SimTK::Vec3 calcStation(const SimTK::State& state, CableElementIndex element) const;
     bool isTouched(const SimTK::State& state, CableElementIndex obstacle) const;
     /** Length of the arc on an obstacle [m]; 0 while lifted. */
     SimTK::Real getArcLength(const SimTK::State& state, CableElementIndex obstacle) const;
@@ -155,16 +179,20 @@ public:
 
     /** @name Forces: unit tension unless one is given [Position] */
     ///@{
-    /** Adds the forces of a tension [N] to those of all bodies, about body origins, in ground.
+    /** Adds the forces of a tension [N] to those of all bodies, about body origins, in ground. A cable with moving
+    points needs applyMobilityForces() beside it.
     @param bodyForces   one entry per mobilized body */
     void applyBodyForces(const SimTK::State& state, SimTK::Real tension,
                          SimTK::Vector_<SimTK::SpatialVec>& bodyForces) const;
+    /** Adds what a tension [N] does to the mobilities through moving points; nothing if there are none.
+    @param mobilityForces   one entry per mobility of the system */
+    void applyMobilityForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector& mobilityForces) const;
     /** Moment [m] and force [1] of unit tension on each body, about body origins, in ground.
     @param unitForces   resized and overwritten */
     void calcUnitBodyForces(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& unitForces) const;
     /** As calcUnitBodyForces(), for one element and about the element's origin E. */
     SimTK::SpatialVec calcUnitElementForce(const SimTK::State& state, CableElementIndex element) const;
-    /** Generalized forces of unit tension, one per mobility: -d(length rate)/du. */
+    /** Generalized forces of unit tension, one per mobility: -d(length rate)/du, moving points included. */
     void calcUnitMobilityForces(const SimTK::State& state, SimTK::Vector& unitForces) const;
     /** Moment arm -dl/dq about one mobility whose speed u is q's derivative [m/rad or 1]: positive where
     shortening drives q up. Constraints are not followed: project with their coupling if there are any. */

@@ -1,0 +1,68 @@
+#include "tautline/hole_passage.h"
+
+#include <algorithm>
+
+#include "tautline/path_solution.h"
+
+namespace tautline {
+namespace {
+
+/** Walks along a portion of a path and counts. */
+class PassageCounter {
+public:
+    PassageCounter(const Surface& surface, HolePassage& passage) : m_surface(surface), m_passage(passage) {}
+
+    void start(const Vec3& p_S) { m_last = p_S; }
+    void goTo(const Vec3& p_S) {
+        const int crossings = m_surface.countHoleCrossings(m_last, p_S);
+        if (crossings != 0) m_passage.through_S = m_last + m_last.z() / (m_last.z() - p_S.z()) * (p_S - m_last);
+        m_passage.count += crossings;
+        m_last = p_S;
+    }
+
+private:
+    const Surface& m_surface;
+    HolePassage& m_passage;
+    Vec3 m_last = Vec3::Zero();
+};
+
+/** The chord of a short arc passes the hole where the arc does; a long one is followed. */
+void followArc(const Surface& surface, const ObstacleContact& contact, PassageCounter& counter) {
+    if (contact.start.length > surface.getSize()) {
+        std::vector<Vec3> points;
+        const int count = 2 + static_cast<int>(std::min(1000.0, 2 * contact.start.length / surface.getSize()));
+        sampleGeodesic(surface, contact.start, GeodesicOptions{1e-4, 500}, count, points);
+        for (const Vec3& p : points) counter.goTo(p);
+    }
+    counter.goTo(contact.geodesic.Q.x);
+}
+
+}  // namespace
+
+bool hasHole(const Surface& surface) {
+    return surface.countHoleCrossings(-Vec3::UnitZ(), Vec3::UnitZ()) != 0;
+}
+
+HolePassage calcHolePassage(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
+                            const StraightSegment& in, const StraightSegment& out) {
+    HolePassage passage;
+    passage.from = in.fromElement, passage.to = out.toElement;
+    passage.A_S = X_GS.shiftBack(in.A), passage.B_S = X_GS.shiftBack(out.B);
+    PassageCounter counter(surface, passage);
+    counter.start(passage.A_S);
+    if (contact.isTouched) {
+        counter.goTo(contact.geodesic.P.x);
+        followArc(surface, contact, counter);
+    }
+    counter.goTo(passage.B_S);
+    return passage;
+}
+
+bool hasLeftHole(const Surface& surface, const HolePassage& before, const HolePassage& after) {
+    if (!before.isKnown() || before.from != after.from || before.to != after.to) return false;
+    return surface.countHoleCrossings(before.A_S, after.A_S) + after.count +
+               surface.countHoleCrossings(after.B_S, before.B_S) - before.count !=
+           0;
+}
+
+}  // namespace tautline
