@@ -33,6 +33,10 @@ public:
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
     double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
 
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return m_base->countHoleCrossings(A_S, B_S);
+    }
+
     ImplicitValue calcImplicit(const Vec3& p) const;
 
 private:
