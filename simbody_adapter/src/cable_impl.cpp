@@ -271,25 +271,46 @@ void CableImpl::handleContactEvent(State& state) const {
     const PathSolution before = getPath(state, "ContactEventHandler::handleEvent()");
     PathSolution after = before;
     CableWorkspace& workspace = m_state.updWorkspace(state);
+    // What the step began from knows how the cable went through rings.
+    const PathSolution start = m_state.getStart(state);
+    for (int e = 0; e < getNumElements(); ++e) after.contacts[e].passage = start.contacts[e].passage;
+    const bool hasChanged = settleContacts(workspace.solver, m_problem, workspace.pose, after);
     // Another obstacle's handler may have settled this one's contact already.
-    if (!settleContacts(workspace.solver, m_problem, workspace.pose, after)) return;
+    if (!hasChanged && !hasLeftAnyHole(start, before)) return;
+    if (!hasChanged) after = before;
     calcVelocities(state, workspace.velocities);
     m_state.setStart(state, after);
-    report(state, before, after);
+    report(state, start, before, after);
+}
+
+bool CableImpl::hasLeftAnyHole(const PathSolution& start, const PathSolution& path) const {
+    for (int e = 0; e < getNumElements(); ++e)
+        if (m_elements[e].surface &&
+            hasLeftHole(*m_elements[e].surface, start.contacts[e].passage, path.contacts[e].passage))
+            return true;
+    return false;
 }
 
 /** @param state   whose pose and velocities are in its workspace */
-void CableImpl::report(const State& state, const PathSolution& before, const PathSolution& after) const {
+void CableImpl::report(const State& state, const PathSolution& start, const PathSolution& before,
+                       const PathSolution& after) const {
     const CableWorkspace& workspace = m_state.updWorkspace(state);
     const Real rateBefore = calcLengthRate(before, workspace.pose, workspace.velocities);
     const Real rateAfter = calcLengthRate(after, workspace.pose, workspace.velocities);
-    for (CableElementIndex e(0); e < getNumElements(); ++e) {
-        if (before.contacts[e].isTouched == after.contacts[e].isTouched) continue;
-        ++m_counters.events;
-        using Kind = ContactEvent::Kind;
-        const Kind kind = after.contacts[e].isTouched ? Kind::Made : Kind::Lost;
+    using Kind = ContactEvent::Kind;
+    const auto tell = [&](CableElementIndex e, Kind kind) {
         if (m_listener)
             m_listener({state.getTime(), m_index, e, kind, before.length, after.length, rateBefore, rateAfter});
+    };
+    for (CableElementIndex e(0); e < getNumElements(); ++e) {
+        if (!m_elements[e].surface) continue;
+        if (hasLeftHole(*m_elements[e].surface, start.contacts[e].passage, after.contacts[e].passage)) {
+            ++m_counters.holesLeft;
+            tell(e, Kind::LeftHole);
+        }
+        if (before.contacts[e].isTouched == after.contacts[e].isTouched) continue;
+        ++m_counters.events;
+        tell(e, after.contacts[e].isTouched ? Kind::Made : Kind::Lost);
     }
 }
 
@@ -298,6 +319,8 @@ PathStatus CableImpl::calcStatus(const State& state) const {
     if (path.status != PathStatus::Solved || !m_state.getMode(state).keepsContacts) return path.status;
     for (int e = 0; e < getNumElements(); ++e)
         if (m_elements[e].surface && path.contacts[e].isSwitchedOff) return PathStatus::EndInside;
+    for (const ObstacleContact& contact : path.contacts)
+        if (contact.hasLeftHole) return PathStatus::NotMinimum;
     using Condition = PathVerification::Condition;
     switch (verifyPath(m_problem, getPose(state), path).condition) {
         case Condition::None:
@@ -325,6 +348,7 @@ CableStatistics CableImpl::getStatistics() const {
     result.numContactEvents = m_counters.events;
     result.numSteps = m_counters.steps;
     result.numDegradedSteps = m_counters.degradedSteps;
+    result.numHolesLeft = m_counters.holesLeft;
     result.seconds = 1e-9 * static_cast<double>(m_counters.nanoseconds);
     return result;
 }
@@ -332,7 +356,8 @@ CableStatistics CableImpl::getStatistics() const {
 void CableImpl::resetStatistics() const {
     for (std::atomic<long>* counter :
          {&m_counters.solves, &m_counters.coldSolves, &m_counters.failures, &m_counters.iterations, &m_counters.shots,
-          &m_counters.events, &m_counters.nanoseconds, &m_counters.steps, &m_counters.degradedSteps})
+          &m_counters.events, &m_counters.holesLeft, &m_counters.nanoseconds, &m_counters.steps,
+          &m_counters.degradedSteps})
         *counter = 0;
 }
 

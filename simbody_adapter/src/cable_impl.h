@@ -85,7 +85,9 @@ private:
     void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
     void solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace, PathSolution& path) const;
     void solveKept(const PathSolution& start, CableWorkspace& workspace, PathSolution& path) const;
-    void report(const SimTK::State& state, const PathSolution& before, const PathSolution& after) const;
+    bool hasLeftAnyHole(const PathSolution& start, const PathSolution& path) const;
+    void report(const SimTK::State& state, const PathSolution& start, const PathSolution& before,
+                const PathSolution& after) const;
 
     CableSubsystemImpl& m_cables;
     CableIndex m_index;
@@ -100,8 +102,8 @@ private:
 
     /** Counted by all threads that realize States. */
     struct Counters {
-        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, nanoseconds{0},
-            steps{0}, degradedSteps{0};
+        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, holesLeft{0},
+            nanoseconds{0}, steps{0}, degradedSteps{0};
     };
     mutable Counters m_counters;
 };

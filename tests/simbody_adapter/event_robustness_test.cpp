@@ -134,5 +134,77 @@ TEST(EventRobustness, StringIsWoundUpWhileThePendulumTurnsOver) {
     for (const Real accuracy : {1e-1, 1e-2, 1e-3, 1e-6}) EXPECT_GE(expectEveryCatchSeen(accuracy, 2.5, 4), 1);
 }
 
+/** A string through a ring, both ends carried sideways as x = a sin(w t), far beyond the ring's tube. */
+struct PulledRing : BareScene {
+    explicit PulledRing(bool isDriven = true) {
+        slider = MobilizedBody::Slider(matter.Ground(), Transform(), makeBody(), Transform());
+        if (isDriven) SimTK::Motion::Sinusoid(slider, SimTK::Motion::Position, 3, frequency, 0);
+        cable = Cable(cables, slider, SimTK::Vec3(0, 0, -2), slider, SimTK::Vec3(0, 0, 2));
+        ring = cable.addObstacle(matter.Ground(), Transform(), std::make_shared<Torus>(0.6, tube), ThreadHole{1});
+        cable.setContactListener([this](const ContactEvent& event) { events.push_back(event); });
+    }
+
+    /** The ring's near side is a circle of the tube about x = +-0.6, which the string passes on the side of x = 0. */
+    Real calcLength(Real x) const {
+        const Real beyond = std::abs(x) - 0.6;
+        if (beyond <= -tube) return 4;
+        const Real a = std::hypot(beyond, 2);
+        return calcCircleLength(a, a, 2 * (SimTK::Pi - std::atan2(2, beyond)), tube);
+    }
+
+    static constexpr Real frequency = 2, tube = 0.02;
+    MobilizedBody slider;
+    Cable cable;
+    CableElementIndex ring;
+    std::vector<ContactEvent> events;
+};
+
+TEST(EventRobustness, AStepThroughARingIsCaughtByTheRing) {
+    for (const Real maxStep : {0.01, 0.1, 0.35}) {
+        SCOPED_TRACE(maxStep);
+        PulledRing scene;
+        SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+        integrator.setMaximumStepSize(maxStep);
+        integrator.setReturnEveryInternalStep(true);
+        SimTK::TimeStepper stepper(scene.system, integrator);
+        stepper.setReportAllSignificantStates(true);
+        stepper.initialize(scene.system.realizeTopology());
+        Real worst = 0;
+        while (integrator.getTime() < 10) {
+            stepper.stepTo(10);
+            const State& state = integrator.getState();
+            scene.system.realize(state, Stage::Position);
+            const Real x = scene.slider.getBodyOriginLocation(state)[0];
+            worst = std::max(worst, std::abs(scene.cable.getLength(state) - scene.calcLength(x)));
+        }
+        std::printf("[measured] ring pulled over in steps of %.2f s: %zu events, length error %.1e m\n", maxStep,
+                    scene.events.size(), worst);
+        EXPECT_LT(worst, 1e-9);
+        EXPECT_GE(scene.events.size(), 10u);
+    }
+}
+
+TEST(EventRobustness, AStringThatHasLeftItsRingSaysSo) {
+    PulledRing scene(false);
+    State state = scene.system.realizeTopology();
+    scene.system.realize(state, Stage::Position);
+    scene.cable.fixContacts(state);
+    scene.system.realize(state, Stage::Position);
+    EXPECT_EQ(scene.cable.calcStatus(state), PathStatus::Solved);
+    EXPECT_GT(scene.cable.getWitness(state, scene.ring), 0);
+    scene.slider.setOneQ(state, 0, 3);
+    scene.system.realize(state, Stage::Position);
+    EXPECT_FALSE(scene.cable.isTouched(state, scene.ring));
+    EXPECT_EQ(scene.cable.getStatus(state), PathStatus::Solved);
+    EXPECT_EQ(scene.cable.calcStatus(state), PathStatus::NotMinimum);
+    EXPECT_LT(scene.cable.getWitness(state, scene.ring), 0);
+    scene.cables.countStep(state);
+    EXPECT_EQ(scene.cable.getStatistics().numDegradedSteps, 1);
+    // Found anew, the string is threaded again.
+    scene.cable.releaseContacts(state);
+    scene.system.realize(state, Stage::Position);
+    EXPECT_NEAR(scene.cable.getLength(state), scene.calcLength(3), 1e-10);
+}
+
 }  // namespace
 }  // namespace tautline::testing

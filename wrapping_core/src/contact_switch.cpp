@@ -11,6 +11,8 @@ double calcContactWitness(const PathProblem& problem, const PathSolution& path, 
     const ObstacleContact& contact = path.contacts[element];
     // An end inside leaves no path over the obstacle: it must be off, and then nothing is watched.
     if (contact.isSwitchedOff) return contact.isTouched ? -1 : 1;
+    // A string that has left a ring has gone through it since the path that this one was continued from.
+    if (contact.hasLeftHole) return -1;
     const double witness = contact.isTouched ? contact.start.length / problem.getElement(element).surface->getSize()
                                              : contact.clearance.distance * contact.clearance.scale - kContactTolerance;
     if (!std::isfinite(witness)) return 1;

@@ -115,6 +115,24 @@ void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S
     if (isOutside && !(clearance.distance > 0)) clearance.found = false;  // the far side of the surface
 }
 
+/** A line may come near a surface in several places, as inside a ring: the one that was watched so far gives way to a
+nearer one while both are clear. A few heights along the segment tell whether there is one. */
+void takeNearerClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
+                         LineClearance& clearance) {
+    constexpr int kSamples = 16;
+    bool isNearer = false;
+    Vec3 N;
+    for (int i = 0; i <= kSamples && !isNearer; ++i)
+        isNearer = surface.calcHeight(A_S + (length * i / kSamples) * e_S, N) < (1 - 1e-9) * clearance.distance;
+    if (!isNearer) return;
+    LineClearance nearer = clearance;
+    nearer.found = false;
+    findFreshClearance(surface, A_S, e_S, length, nearer);
+    if (nearer.found && nearer.lineCoordinate >= 0 && nearer.lineCoordinate <= length &&
+        nearer.distance < clearance.distance)
+        clearance = nearer;
+}
+
 /** The height of one point of the line as its clearance. */
 void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double s, LineClearance& clearance) {
     const Vec3 D = A_S + s * e_S;
@@ -278,7 +296,10 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
     kept.found = false;
     kept.C = clearance.keptC, kept.N = clearance.keptN;
     if (kept.N.allFinite() && kept.C.p.allFinite()) surface.findLineClearance(A_S, e_S, kept);
-    if (!kept.found) findFreshClearance(surface, A_S, e_S, length, kept);
+    if (!kept.found)
+        findFreshClearance(surface, A_S, e_S, length, kept);
+    else if (kept.distance > 0 && !surface.isConvex())
+        takeNearerClearance(surface, A_S, e_S, length, kept);
     // Eqn. 6.3 puts D on the infinite line: past an end, the height of that end is what counts.
     if (!kept.found)
         takeHeight(surface, A_S, e_S, surface.findLowestPoint(A_S, e_S, length), kept);

@@ -21,9 +21,10 @@ class CableImpl;
 which they were added, last the insertion. */
 SimTK_DEFINE_UNIQUE_INDEX_TYPE(CableElementIndex);
 
-/** A contact that was made (touchdown) or lost (lift-off) in a time-stepping study. */
+/** A contact that was made (touchdown) or lost (lift-off) in a time-stepping study, or a ring (an obstacle with a
+hole) that a cable has left though it was threaded through it: the step was too long to see what held it. */
 struct ContactEvent {
-    enum class Kind { Made, Lost };
+    enum class Kind { Made, Lost, LeftHole };
     SimTK::Real time;  ///< [s]
     CableIndex cable;
     CableElementIndex obstacle;
@@ -40,6 +41,7 @@ struct CableStatistics {
     long numIterations = 0;     ///< of Newton's method
     long numShots = 0;          ///< geodesics shot
     long numContactEvents = 0;  ///< contacts made or lost by the event handlers
+    long numHolesLeft = 0;      ///< rings that the cable went through in a step
     double seconds = 0;         ///< spent in the solver
     long numSteps = 0;          ///< accepted steps that CableSubsystem::countStep() was told of
     long numDegradedSteps = 0;  ///< of those, with a status other than Solved: Cable::calcStatus()
@@ -160,7 +162,8 @@ public:
     SimTK::Real getLength(const SimTK::State& state) const;
     PathStatus getStatus(const SimTK::State& state) const;
     /** As getStatus(), with all conditions judged also while contacts are fixed. An arc just below zero length is no
-    fault then: between events the event finder watches it. */
+    fault then: between events the event finder watches it. A path that has left a ring since the step before is
+    NotMinimum. */
     PathStatus calcStatus(const SimTK::State& state) const;
     /** max |eps|, dimensionless. */
     SimTK::Real getPathError(const SimTK::State& state) const;
