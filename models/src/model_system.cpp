@@ -174,16 +174,30 @@ SimTK::State ModelSystem::makeDefaultState() {
 }
 
 double ModelSystem::calcMomentArm(const SimTK::State& state, const Cable& cable, const std::string& coordinate) const {
-    const auto& slot = m_model.getCoordinateSlot(coordinate);
-    double arm = cable.calcMomentArm(state, slot.body, slot.u);
-    const double q = m_model.getCoordinate(state, coordinate);
-    for (const CoordinateCoupler& coupler : m_couplers) {
-        if (coupler.independentCoordinate != coordinate) continue;
-        const auto& dependent = m_model.getCoordinateSlot(coupler.dependentCoordinate);
-        const double slope = coupler.scaleFactor * coupler.function.calcDerivative(q);
-        arm += slope * cable.calcMomentArm(state, dependent.body, dependent.u);
+    m_model.getCoordinateSlot(coordinate);  // refuses unknown names
+    const std::vector<std::string>& names = m_model.getCoordinateNames();
+    const auto at = std::find(names.begin(), names.end(), coordinate);
+    return calcMomentArms(state, cable)[static_cast<std::size_t>(at - names.begin())];
+}
+
+std::vector<double> ModelSystem::calcMomentArms(const SimTK::State& state, const Cable& cable) const {
+    SimTK::Vector unitForces;
+    cable.calcUnitMobilityForces(state, unitForces);
+    const auto getForce = [&](const std::string& name) {
+        const auto& slot = m_model.getCoordinateSlot(name);
+        return unitForces[m_matter.getMobilizedBody(slot.body).getFirstUIndex(state) + slot.u];
+    };
+    std::vector<double> arms;
+    for (const std::string& coordinate : m_model.getCoordinateNames()) {
+        double arm = getForce(coordinate);
+        for (const CoordinateCoupler& coupler : m_couplers) {
+            if (coupler.independentCoordinate != coordinate) continue;
+            const double q = m_model.getCoordinate(state, coordinate);
+            arm += coupler.scaleFactor * coupler.function.calcDerivative(q) * getForce(coupler.dependentCoordinate);
+        }
+        arms.push_back(arm);
     }
-    return arm;
+    return arms;
 }
 
 }  // namespace tautline::models

@@ -58,7 +58,6 @@ LineClearance ClearanceProbe::calcClearance(const SimTK::State& state) {
         return contact.clearance;
     }
     PathInPose without = makePathInPose(m_cable, state);
-    without.pose.isActive.assign(path.contacts.size(), 1);
     without.pose.isActive[m_obstacle] = 0;
     const Surface& surface = *m_cable.getSurface(m_obstacle);
     LineClearance clearance = watchAtMiddle(surface, contact.start);

@@ -73,12 +73,16 @@ PathStart makePathStart(const MusclePath& path, const std::vector<BoundWrap>& wr
 PathInPose makePathInPose(const Cable& cable, const SimTK::State& state) {
     PathInPose path;
     for (CableElementIndex e(0); e < cable.getNumElements(); ++e) {
-        if (cable.isObstacle(e))
-            path.problem.addObstacle(cable.getElementName(e), cable.getSurface(e));
-        else
-            path.problem.addPoint(cable.getElementName(e));
         const SimTK::MobilizedBody& body = cable.getMatterSubsystem().getMobilizedBody(cable.getElementBody(e));
-        path.pose.X_GE.push_back(toPose(body.getBodyTransform(state) * cable.getElementFrame(e)));
+        SimTK::Transform X_BE = cable.getElementFrame(e);
+        if (cable.isObstacle(e)) {
+            path.problem.addObstacle(cable.getElementName(e), cable.getSurface(e));
+        } else {
+            path.problem.addPoint(cable.getElementName(e));
+            X_BE.updP() = cable.calcStation(state, e);
+        }
+        path.pose.X_GE.push_back(toPose(body.getBodyTransform(state) * X_BE));
+        path.pose.isActive.push_back(cable.isActive(state, e));
     }
     return path;
 }

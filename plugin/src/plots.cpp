@@ -16,7 +16,7 @@ namespace {
 
 using PathView = models::ModelSystem::PathView;
 
-/** More events than this would only blacken the picture. */
+/** More events than this are not marked: they would only blacken the picture. */
 constexpr std::size_t kMaxMarks = 60;
 
 std::string quote(const std::string& text) {
@@ -116,8 +116,9 @@ void writeCurves(const PathView& path, const SimulationResult& result, const std
     script << "set terminal svg noenhanced size 1000," << 240 * rows + 40 << " font 'sans,11' background 'white'\n"
            << "set output " << quote(picture) << "\nunset arrow\nset key below\n";
     const std::vector<std::string> times = findEventTimes(path, result.events);
-    for (std::size_t i = 0; i < times.size() && i < kMaxMarks; ++i)
-        script << "set arrow from " << times[i] << ", graph 0 to " << times[i] << ", graph 1 nohead dt 2 lc 'gray'\n";
+    if (times.size() <= kMaxMarks)
+        for (const std::string& time : times)
+            script << "set arrow from " << time << ", graph 0 to " << time << ", graph 1 nohead dt 2 lc 'gray'\n";
     script << "set multiplot layout " << rows << ",2 title " << quote(path.name + ": time in s") << "\n";
     for (const Panel& panel : panels) writePanel(panel, script);
     script << "unset multiplot\nunset output\n";

@@ -8,6 +8,7 @@
 namespace tautline {
 
 void RunCommand::declare(CLI::App& app) {
+    app.option_defaults()->take_last();  // so that what a script gives can be overridden
     app.add_option("MODEL", modelFile, "model file (.osim)")->required();
     app.add_option("--duration", simulation.duration, "time to simulate [s]")
         ->check(CLI::PositiveNumber)

@@ -140,8 +140,8 @@ private:
             row.push_back(path.cable.getPathError(state));
             for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e)
                 if (path.cable.isObstacle(e)) row.push_back(path.cable.isTouched(state, e));
-            for (const std::string& name : m_model.getModel().getCoordinateNames())
-                row.push_back(m_model.calcMomentArm(state, path.cable, name));
+            const std::vector<double> arms = m_model.calcMomentArms(state, path.cable);
+            row.insert(row.end(), arms.begin(), arms.end());
         }
         m_result.paths.rows.push_back(row);
     }
@@ -190,8 +190,9 @@ void startPaths(const ModelSystem& model, State& state, SimulationResult& result
         const models::IteratedPath iterated = models::iteratePath(inPose, path.start);
         recordIterations(path, iterated, result.starts);
         PathSolution solution = models::makePathSolution(inPose, iterated.start);
-        if (solution.status == PathStatus::Solved)
-            PathSolver(path.cable.getOptions()).solve(inPose.problem, inPose.pose, solution);
+        PathSolverOptions options = path.cable.getOptions();
+        options.allowsColdStart = false;  // that would be another path
+        if (solution.status == PathStatus::Solved) PathSolver(options).solve(inPose.problem, inPose.pose, solution);
         if (solution.status != PathStatus::Solved)
             throw std::runtime_error("path '" + path.name + "': the start that the model gives leads to no shortest " +
                                      "path: " + getName(solution.status));

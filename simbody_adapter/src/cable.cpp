@@ -24,6 +24,11 @@ CableElement makePoint(const CableImpl& cable, const MobilizedBody& body, const 
     return point;
 }
 
+StartHint toStartHint(const std::optional<SimTK::Vec3>& hint_S) {
+    if (!hint_S) return {};
+    return PassNear{toEigen(*hint_S)};
+}
+
 /** A body of another system would be taken for one of ours with the same index. */
 void requireOwnBody(const CableSubsystemImpl& cables, const std::string& cable, const MobilizedBody& body) {
     require(body.isInSubsystem() && body.getMatterSubsystem().isSameSubsystem(cables.getMatter()), "cable '", cable,
@@ -89,19 +94,26 @@ void Cable::setMovingInsertion(std::shared_ptr<const MovingStation> station) {
 CableElementIndex Cable::addObstacle(const MobilizedBody& body, const SimTK::Transform& X_BS,
                                      std::shared_ptr<const Surface> surface, std::optional<SimTK::Vec3> hint_S,
                                      std::string name) {
+    return addObstacle(body, X_BS, std::move(surface), toStartHint(hint_S), std::move(name));
+}
+
+CableElementIndex Cable::addObstacle(const MobilizedBody& body, const SimTK::Transform& X_BS,
+                                     std::shared_ptr<const Surface> surface, const StartHint& hint, std::string name) {
     requireOwnBody(get().getSubsystemImpl(), getName(), body);
     require(surface != nullptr, "cable '", getName(), "': obstacle '", name, "' has no surface");
     require(X_BS.p().isFinite() && X_BS.R().isFinite(), "cable '", getName(), "': the pose of obstacle '", name,
             "' is not finite");
-    require(!hint_S || hint_S->isFinite(), "cable '", getName(), "': the hint of obstacle '", name, "' is not finite");
     CableElement obstacle;
     obstacle.name = std::move(name), obstacle.body = body.getMobilizedBodyIndex(), obstacle.X_BE = X_BS;
-    obstacle.surface = std::move(surface), obstacle.hint_S = hint_S;
+    obstacle.surface = std::move(surface), obstacle.hint = hint;
     return upd().insertElement(std::move(obstacle));
 }
 
 void Cable::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
-    upd().setHint(obstacle, hint_S);
+    upd().setHint(obstacle, toStartHint(hint_S));
+}
+void Cable::setHint(CableElementIndex obstacle, const StartHint& hint) {
+    upd().setHint(obstacle, hint);
 }
 
 void Cable::setOptions(const PathSolverOptions& options) {
@@ -203,6 +215,10 @@ PathStatus Cable::getStatus(const State& state) const {
     return get().getPath(state, "Cable::getStatus()").status;
 }
 
+PathStatus Cable::calcStatus(const State& state) const {
+    return get().calcStatus(state);
+}
+
 Real Cable::getPathError(const State& state) const {
     return get().getPath(state, "Cable::getPathError()").pathError;
 }
@@ -247,6 +263,21 @@ bool Cable::getContactPoints(const State& state, CableElementIndex obstacle, Sim
     const Pose& X_GS = get().getPose(state).X_GE[obstacle];
     P_G = toSimTK(X_GS * contact.geodesic.P.x);
     Q_G = toSimTK(X_GS * contact.geodesic.Q.x);
+    return true;
+}
+
+bool Cable::getContactFrames(const State& state, CableElementIndex obstacle, SimTK::Transform& X_GP,
+                             SimTK::Transform& X_GQ) const {
+    get().getObstacle(obstacle);
+    const ObstacleContact& contact = get().getPath(state, "Cable::getContactFrames()").contacts[obstacle];
+    if (!contact.isTouched) return false;
+    const Pose& X_GS = get().getPose(state).X_GE[obstacle];
+    const auto calcFrame = [&](const DarbouxFrame& frame) {
+        Mat3 R_SP;
+        R_SP << frame.t, frame.N, frame.B;
+        return toTransform(X_GS * Pose(R_SP, frame.x));
+    };
+    X_GP = calcFrame(contact.geodesic.P), X_GQ = calcFrame(contact.geodesic.Q);
     return true;
 }
 

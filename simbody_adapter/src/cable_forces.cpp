@@ -48,6 +48,39 @@ private:
     Real m_slackLength, m_stiffness, m_damping;
 };
 
+class CableSpringLaw : public CableForceLaw {
+public:
+    CableSpringLaw(const Cable& cable, Real restLength, Real stiffness, Real damping)
+        : CableForceLaw(cable),
+          m_restLength(checked(restLength, "rest length")),
+          m_stiffness(checked(stiffness, "stiffness")),
+          m_damping(checked(damping, "damping")) {}
+
+    Real getRestLength() const { return m_restLength; }
+    Real getStiffness() const { return m_stiffness; }
+    Real getDamping() const { return m_damping; }
+
+    Real calcTension(const State& state) const override {
+        // Below the rest length the spring is slack and the damper alone pulls.
+        return m_stiffness * std::max(Real(0), calcStretch(state)) + m_damping * getCable().getLengthRate(state);
+    }
+
+    Real calcPotentialEnergy(const State& state) const override {
+        return m_stiffness * SimTK::square(std::max(Real(0), calcStretch(state))) / 2;
+    }
+
+private:
+    Real calcStretch(const State& state) const { return getCable().getLength(state) - m_restLength; }
+
+    Real checked(Real value, const char* what) const {
+        require(std::isfinite(value) && value >= 0, "cable spring on cable '", getCable().getName(), "': ", what,
+                " must be finite and not negative, but is ", value);
+        return value;
+    }
+
+    Real m_restLength, m_stiffness, m_damping;
+};
+
 /** A tension from a discrete variable (no function) or from a function. */
 class PrescribedTensionLaw : public CableForceLaw {
 public:
@@ -125,6 +158,20 @@ Real ElasticStringForce::getPowerDissipation(const State& state) const {
     const Real rate = getCable().getLengthRate(state);
     // What the tension does beyond the elastic part, so that the cut at zero is accounted for.
     return (getTension(state) - getStiffness() * getStretch(state)) * rate;
+}
+
+CableSpringForce::CableSpringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, Real restLength,
+                                   Real stiffness, Real damping)
+    : CableForce(forces, std::make_unique<CableSpringLaw>(cable, restLength, stiffness, damping)) {}
+
+Real CableSpringForce::getRestLength() const {
+    return dynamic_cast<const CableSpringLaw&>(getLaw()).getRestLength();
+}
+Real CableSpringForce::getStiffness() const {
+    return dynamic_cast<const CableSpringLaw&>(getLaw()).getStiffness();
+}
+Real CableSpringForce::getDamping() const {
+    return dynamic_cast<const CableSpringLaw&>(getLaw()).getDamping();
 }
 
 PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, Real tension)

@@ -47,6 +47,7 @@ CableElementIndex CableImpl::insertElement(CableElement element) {
     if (element.name.empty()) element.name = (element.surface ? "obstacle" : "point") + std::to_string(index);
     for (const CableElement& other : m_elements)
         require(other.name != element.name, "cable '", m_name, "': there is an element '", element.name, "' already");
+    if (element.surface) checkHint(element);
     const bool isObstacle = element.surface != nullptr, isConditional = element.isActive != nullptr;
     m_elements.insert(m_elements.end() - 1, std::move(element));
     m_cables.invalidateSubsystemTopologyCache();
@@ -60,12 +61,21 @@ void CableImpl::setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation>
     m_cables.invalidateSubsystemTopologyCache();
 }
 
-void CableImpl::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
-    getObstacle(obstacle);
-    require(!hint_S || hint_S->isFinite(), "cable '", m_name, "': the hint of obstacle '", m_elements[obstacle].name,
-            "' is not finite");
-    m_elements[obstacle].hint_S = hint_S;
+void CableImpl::setHint(CableElementIndex obstacle, const StartHint& hint) {
+    CableElement changed = getObstacle(obstacle);
+    changed.hint = hint;
+    checkHint(changed);
+    m_elements[obstacle] = changed;
     m_cables.invalidateSubsystemTopologyCache();
+}
+
+/** @throws InvalidInput as the core would when the path problem is built */
+void CableImpl::checkHint(const CableElement& obstacle) const {
+    try {
+        PathProblem().addObstacle(obstacle.name, obstacle.surface, obstacle.hint);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput("cable '" + m_name + "': " + error.what());
+    }
 }
 
 void CableImpl::setOptions(const PathSolverOptions& options) {
@@ -102,9 +112,7 @@ void CableImpl::realizeTopology(State& state) {
             m_problem.addPoint(element.name);
             continue;
         }
-        std::optional<Vec3> hint_S;
-        if (element.hint_S) hint_S = toEigen(*element.hint_S);
-        m_problem.addObstacle(element.name, element.surface, hint_S);
+        m_problem.addObstacle(element.name, element.surface, element.hint);
     }
     m_state.allocate(m_cables, state, m_defaultMode, m_options);
 }
@@ -285,6 +293,28 @@ void CableImpl::report(const State& state, const PathSolution& before, const Pat
     }
 }
 
+PathStatus CableImpl::calcStatus(const State& state) const {
+    const PathSolution& path = getPath(state, "Cable::calcStatus()");
+    if (path.status != PathStatus::Solved || !m_state.getMode(state).keepsContacts) return path.status;
+    for (int e = 0; e < getNumElements(); ++e)
+        if (m_elements[e].surface && path.contacts[e].isSwitchedOff) return PathStatus::EndInside;
+    using Condition = PathVerification::Condition;
+    switch (verifyPath(m_problem, getPose(state), path).condition) {
+        case Condition::None:
+        case Condition::NegativeLength:
+            return PathStatus::Solved;
+        case Condition::OutsideDomain:
+            return PathStatus::LeftDomain;
+        default:
+            return PathStatus::NotMinimum;
+    }
+}
+
+void CableImpl::countStep(const State& state) const {
+    ++m_counters.steps;
+    if (calcStatus(state) != PathStatus::Solved) ++m_counters.degradedSteps;
+}
+
 CableStatistics CableImpl::getStatistics() const {
     CableStatistics result;
     result.numSolves = m_counters.solves;
@@ -293,6 +323,8 @@ CableStatistics CableImpl::getStatistics() const {
     result.numIterations = m_counters.iterations;
     result.numShots = m_counters.shots;
     result.numContactEvents = m_counters.events;
+    result.numSteps = m_counters.steps;
+    result.numDegradedSteps = m_counters.degradedSteps;
     result.seconds = 1e-9 * static_cast<double>(m_counters.nanoseconds);
     return result;
 }
@@ -300,7 +332,7 @@ CableStatistics CableImpl::getStatistics() const {
 void CableImpl::resetStatistics() const {
     for (std::atomic<long>* counter :
          {&m_counters.solves, &m_counters.coldSolves, &m_counters.failures, &m_counters.iterations, &m_counters.shots,
-          &m_counters.events, &m_counters.nanoseconds})
+          &m_counters.events, &m_counters.nanoseconds, &m_counters.steps, &m_counters.degradedSteps})
         *counter = 0;
 }
 

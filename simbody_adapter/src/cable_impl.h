@@ -15,7 +15,7 @@ struct CableElement {
     SimTK::MobilizedBodyIndex body;
     SimTK::Transform X_BE;
     std::shared_ptr<const Surface> surface;  ///< null: a point
-    std::optional<SimTK::Vec3> hint_S;
+    StartHint hint;
     std::shared_ptr<const MovingStation> moving = nullptr;        ///< of a point; null: it is fixed at X_BE
     std::function<bool(const SimTK::State&)> isActive = nullptr;  ///< of a point; null: always
 };
@@ -29,7 +29,7 @@ public:
     void setEnds(CableElement origin, CableElement insertion);
     CableElementIndex insertElement(CableElement element);
     void setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station);
-    void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
+    void setHint(CableElementIndex obstacle, const StartHint& hint);
     void setOptions(const PathSolverOptions& options);
     void setDisabledByDefault(bool isDisabled);
     void setListener(std::function<void(const ContactEvent&)> listener) { m_listener = std::move(listener); }
@@ -72,10 +72,15 @@ public:
     void releaseContacts(SimTK::State& state) const;
     void handleContactEvent(SimTK::State& state) const;
 
+    /** With all conditions judged, contacts fixed or not. */
+    PathStatus calcStatus(const SimTK::State& state) const;
+    void countStep(const SimTK::State& state) const;
+
     CableStatistics getStatistics() const;
     void resetStatistics() const;
 
 private:
+    void checkHint(const CableElement& obstacle) const;
     void calcPose(const SimTK::State& state, PathPose& pose) const;
     void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
     void solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace, PathSolution& path) const;
@@ -95,7 +100,8 @@ private:
 
     /** Counted by all threads that realize States. */
     struct Counters {
-        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, nanoseconds{0};
+        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, nanoseconds{0},
+            steps{0}, degradedSteps{0};
     };
     mutable Counters m_counters;
 };

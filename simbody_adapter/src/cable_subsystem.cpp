@@ -30,6 +30,10 @@ const SimTK::MultibodySystem& CableSubsystem::getMultibodySystem() const {
     return getImpl().getMultibodySystem();
 }
 
+void CableSubsystem::countStep(const State& state) const {
+    getImpl().countStep(state);
+}
+
 CableSubsystemImpl& CableSubsystem::updImpl() {
     return dynamic_cast<CableSubsystemImpl&>(updSubsystemGuts());
 }
@@ -81,6 +85,12 @@ int CableSubsystemImpl::realizeSubsystemTopologyImpl(State& state) const {
 int CableSubsystemImpl::realizeSubsystemPositionImpl(const State& state) const {
     for (const std::unique_ptr<CableImpl>& cable : m_impls) cable->realizePosition(state);
     return 0;
+}
+
+void CableSubsystemImpl::countStep(const State& state) const {
+    getSystem().realize(state, Stage::Position);
+    for (const std::unique_ptr<CableImpl>& cable : m_impls)
+        if (!cable->isDisabled(state)) cable->countStep(state);
 }
 
 void CableSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause cause, const SimTK::Array_<SimTK::EventId>&,

@@ -21,6 +21,8 @@ public:
     int getNumCables() const { return static_cast<int>(m_impls.size()); }
     Cable& updCable(CableIndex cable);
 
+    void countStep(const SimTK::State& state) const;
+
     /** Makes sure that the cables are realized to a stage, Position or Velocity. While the System works on
     that stage other subsystems may ask for cables before their turn: as soon as the bodies are
     realized, the cables can be. @throws the stage error of `method` if they are not */

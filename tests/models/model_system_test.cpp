@@ -162,11 +162,9 @@ TEST(ModelSystem, WrapsAreBoundToTheSegmentsOfTheirRanges) {
     }
 }
 
-TEST(ModelSystem, PointsThatMoveAreRefusedByNameAndLine) {
+TEST(ModelSystem, AConditionalEndIsRefusedByNameAndLine) {
     const std::string path =
         "<Thelen2003Muscle name=\"quad\"><GeometryPath name=\"path\"><PathPointSet><objects>\n"
-        "<PathPoint name=\"p1\"><socket_parent_frame>/ground</socket_parent_frame><location>0 0 "
-        "0</location></PathPoint>\n"
         "<ConditionalPathPoint name=\"p2\"><socket_parent_frame>/bodyset/b</socket_parent_frame><location>0 1 "
         "0</location>"
         "<socket_coordinate>/jointset/j/q</socket_coordinate><range>0 1</range></ConditionalPathPoint>\n"

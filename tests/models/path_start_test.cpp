@@ -106,5 +106,52 @@ TEST(FourSurfacesModel, AStudyContinuesFromAGivenPath) {
     EXPECT_THROW(cable.continueFrom(model.state, PathSolution()), InvalidInput);
 }
 
+/** A string along x over two rolls beneath it; the far one comes first in the list. */
+ModelDescription readTwoRolls(const std::string& order, const std::string& hint = "") {
+    const auto makeRoll = [](const std::string& name, const std::string& x) {
+        return "<WrapCylinder name=\"" + name + "\"><radius>0.5</radius><length>4</length><translation>" + x +
+               " 0 0</translation></WrapCylinder>";
+    };
+    const auto makePoint = [](const std::string& x) {
+        return "<PathPoint name=\"p" + x + "\"><socket_parent_frame>/ground</socket_parent_frame><location>" + x +
+               " 0.4 0</location></PathPoint>";
+    };
+    const std::string ground = "<Ground><WrapObjectSet><objects>" + makeRoll("far", "2") + makeRoll("near", "-2") +
+                               "</objects></WrapObjectSet></Ground>";
+    const std::string spring = "<ForceSet><objects><PathSpring name=\"s\"><GeometryPath><PathPointSet><objects>" +
+                               makePoint("-4") + makePoint("4") + "</objects></PathPointSet>" + order +
+                               "<PathWrapSet><objects><PathWrap><wrap_object>far</wrap_object></PathWrap>"
+                               "<PathWrap><wrap_object>near</wrap_object>" +
+                               hint +
+                               "</PathWrap></objects></PathWrapSet></GeometryPath><resting_length>1</resting_length>"
+                               "<stiffness>1</stiffness><dissipation>0</dissipation></PathSpring></objects></ForceSet>";
+    return readNew(ground + spring);
+}
+
+std::string findFirstObstacle(const std::string& order) {
+    const ModelSystem model(readTwoRolls(order));
+    return model.getSprings().at(0).cable.getElementName(CableElementIndex(1));
+}
+
+TEST(WrapOrder, IsByPlaceUnlessTheListSaysOtherwise) {
+    EXPECT_EQ(findFirstObstacle(""), "near");
+    EXPECT_EQ(findFirstObstacle("<tautline_wraps_in_order>false</tautline_wraps_in_order>"), "near");
+    EXPECT_EQ(findFirstObstacle("<tautline_wraps_in_order>true</tautline_wraps_in_order>"), "far");
+}
+
+TEST(WrapHint, ChoosesTheSideOnWhichThePathRuns) {
+    const auto findHeight = [](const std::string& hint) {
+        ModelSystem model(readTwoRolls("", hint));
+        const Cable& cable = model.getSprings().at(0).cable;
+        SimTK::State state = model.makeDefaultState();
+        model.getSystem().realize(state, SimTK::Stage::Position);
+        SimTK::Vec3 P_G, Q_G;
+        EXPECT_TRUE(cable.getContactPoints(state, cable.findElement("near"), P_G, Q_G));
+        return P_G[1];
+    };
+    EXPECT_GT(findHeight(""), 0.3);
+    EXPECT_LT(findHeight("<tautline_hint>0 -0.5 0</tautline_hint>"), 0);
+}
+
 }  // namespace
 }  // namespace tautline::models::testing

@@ -150,18 +150,41 @@ TEST(Program, SaysThatGnuplotIsMissingBeforeItSimulates) {
     EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
-/** models/paraboloid.osim with the origin moved to where the rising paraboloid swallows it. */
-std::filesystem::path writeModelWithSwallowedEnd() {
-    std::string text = readAll(TAUTLINE_SOURCE_DIR "/models/paraboloid.osim");
-    const std::string location = "<location>-10 2.5 0</location>";
-    text.replace(text.find(location), location.size(), "<location>-3 0.5 0</location>");
-    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "tautline_swallowed.osim";
+/** One of our models with something in it replaced. */
+std::string writeEditedModel(const std::string& name, const std::string& from, const std::string& to) {
+    std::string text = readAll(TAUTLINE_SOURCE_DIR "/models/" + name);
+    EXPECT_NE(text.find(from), std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / ("tautline_edited_" + name);
     std::ofstream(file) << text;
-    return file;
+    return file.string();
+}
+
+TEST(Program, AStartThatLeadsNowhereEndsTheRun) {
+    // The string laid along the ring of the torus instead of through it.
+    const std::string file = writeEditedModel("four_surfaces_implicit.osim", "<direction>-0.4 0 1</direction>",
+                                              "<direction>0 1 0</direction>");
+    const std::filesystem::path folder = makeFolder("no_start");
+    const Outcome outcome = runProgram("run " + file + " --out " + folder.string());
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_NE(outcome.text.find("tautline: path 'string': the start that the model gives leads to no shortest path"),
+              std::string::npos)
+        << outcome.text;
+    EXPECT_FALSE(std::filesystem::exists(folder / "paths.sto"));
+}
+
+TEST(Program, TheLastOfTwoEqualOptionsCounts) {
+    const std::filesystem::path folder = makeFolder("last");
+    const Outcome outcome = runProgram(
+        "run " TAUTLINE_SOURCE_DIR "/models/paraboloid.osim --duration 1 --duration 0.5 --out " + folder.string());
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.text;
+    EXPECT_EQ(readStorage(folder / "paths.sto").rows.back()[0], 0.5);
 }
 
 TEST(Program, DegradedStepsMakeItFailUnlessTheyAreAllowed) {
-    const std::string file = writeModelWithSwallowedEnd().string();
+    // The rising paraboloid swallows the string's origin.
+    const std::string file =
+        writeEditedModel("paraboloid.osim", "<location>-10 2.5 0</location>", "<location>-3 0.5 0</location>");
     const std::string command = "run " + file + " --duration 3 --out " + makeFolder("swallowed").string();
     const Outcome refused = runProgram(command);
     EXPECT_EQ(refused.exitCode, 3) << refused.text;

@@ -80,7 +80,9 @@ TEST(Readme, CommandsOfTheProgramWork) {
 TEST(Readme, NamesFilesThatExist) {
     for (const char* file :
          {"/models/run", "/tests/run", "/models/figures/path.svg", "/models/elbow.osim", "/models/paraboloid.osim",
-          "/models/four_surfaces_implicit.osim", "/models/four_surfaces_parametric.osim", "/models/README.md"})
+          "/models/four_surfaces_implicit.osim", "/models/four_surfaces_parametric.osim",
+          "/models/figures/paraboloid_curves.svg", "/models/figures/four_surfaces_curves.svg",
+          "/models/figures/four_surfaces_start.svg", "/models/README.md"})
         EXPECT_TRUE(std::ifstream(kRoot + file).good()) << file;
 }
 

@@ -295,6 +295,41 @@ TEST(ThesisFourSurfaces, RateIsTheSlopeOfTheLength) {
     }
 }
 
+TEST(ThesisFourSurfaces, LengthAndRateAreContinuousOverTheEvents) {
+    ModelSystem model(models::readOsimFile(TAUTLINE_SOURCE_DIR "/models/four_surfaces_implicit.osim"));
+    const Cable& cable = model.getSprings().at(0).cable;
+    int events = 0;
+    Cable(cable).setContactListener([&events](const ContactEvent& event) {
+        ++events;
+        EXPECT_NEAR(event.lengthAfter, event.lengthBefore, 1e-9 * event.lengthBefore);
+    });
+    SimTK::RungeKuttaMersonIntegrator integrator(model.getSystem());
+    integrator.setAccuracy(1e-6);
+    integrator.setReturnEveryInternalStep(true);
+    SimTK::TimeStepper stepper(model.getSystem(), integrator);
+    stepper.setReportAllSignificantStates(true);
+    stepper.initialize(model.makeDefaultState());
+    while (stepper.getTime() < 3.1) {
+        const int before = events;
+        model.getSystem().realize(stepper.getState(), SimTK::Stage::Position);
+        const PathSolution path = cable.getSolution(stepper.getState());
+        stepper.stepTo(3.1);
+        if (events == before) continue;
+        // The same pose with the contacts of before and of after the event.
+        SimTK::State after = stepper.getState(), old = stepper.getState();
+        cable.continueFrom(old, path);
+        model.getSystem().realize(after, SimTK::Stage::Velocity);
+        model.getSystem().realize(old, SimTK::Stage::Velocity);
+        EXPECT_EQ(cable.getStatus(old), PathStatus::Solved);
+        EXPECT_NEAR(cable.getLength(after), cable.getLength(old), 1e-9 * cable.getLength(old));
+        // The fastest end is the mass, at up to 1 m/s.
+        EXPECT_NEAR(cable.getLengthRate(after), cable.getLengthRate(old), 1e-7) << stepper.getTime();
+        std::cout << stepper.getTime() << " s: length changes by " << cable.getLength(after) - cable.getLength(old)
+                  << " m, rate by " << cable.getLengthRate(after) - cable.getLengthRate(old) << " m/s\n";
+    }
+    EXPECT_EQ(events, 2);
+}
+
 TEST(ThesisFourSurfaces, StartIsWrittenObstacleByObstacle) {
     const SimulatedModel run("four_surfaces_implicit", makeOptions(0.01, 0.01, 1e-3));
     EXPECT_EQ(run.result.starts.substr(0, 30), "path,iteration,obstacle,error\n");

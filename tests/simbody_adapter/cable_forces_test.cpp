@@ -1,7 +1,6 @@
 #include "tautline/simbody/cable_forces.h"
 
 #include "adapter_scenes.h"
-#include "tautline/simbody/cable_decorations.h"
 
 namespace tautline::testing {
 namespace {
@@ -72,6 +71,39 @@ TEST(ElasticString, PullsNothingWhileDisabled) {
     EXPECT_EQ(state.getUDot()[0], 0);
 }
 
+TEST(CableSpring, TensionEnergyAndDamping) {
+    StraightCable scene;
+    const CableSpringForce force(scene.forces, scene.cable, 1.5, 100, 4);
+    const State taut = scene.makeState(2, 0.5);
+    EXPECT_NEAR(force.getTension(taut), 100 * 0.5 + 4 * 0.5, 1e-12);
+    EXPECT_NEAR(scene.system.calcPotentialEnergy(taut), 0.5 * 100 * 0.25, 1e-12);
+    EXPECT_NEAR(taut.getUDot()[0], -52, 1e-11);
+    // Below the rest length only the damper pulls, and nothing pushes.
+    EXPECT_NEAR(force.getTension(scene.makeState(1.4, 0.5)), 2, 1e-12);
+    EXPECT_EQ(scene.system.calcPotentialEnergy(scene.makeState(1.4, 0.5)), 0);
+    EXPECT_EQ(force.getTension(scene.makeState(1.4, -0.5)), 0);
+    EXPECT_EQ(force.getTension(scene.makeState(1.6, -3)), 0);
+    EXPECT_EQ(force.getRestLength(), 1.5);
+    EXPECT_EQ(force.getStiffness(), 100);
+    EXPECT_EQ(force.getDamping(), 4);
+    EXPECT_MESSAGE(CableSpringForce(scene.forces, scene.cable, -1, 100),
+                   "cable spring on cable 'straight': rest length must be finite and not negative, but is -1");
+    EXPECT_MESSAGE(CableSpringForce(scene.forces, scene.cable, 1, -2), "stiffness");
+    EXPECT_MESSAGE(CableSpringForce(scene.forces, scene.cable, 1, 1, SimTK::NaN), "damping");
+}
+
+TEST(CableSpring, OscillatesWithItsFrequency) {
+    // Mass 1, k = 9: x = rest + a cos 3t while taut.
+    StraightCable scene;
+    CableSpringForce(scene.forces, scene.cable, 1.5, 9);
+    SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+    integrator.setAccuracy(1e-11);
+    SimTK::TimeStepper stepper(scene.system, integrator);
+    stepper.initialize(scene.makeState(2, 0));
+    stepper.stepTo(0.5);
+    EXPECT_NEAR(integrator.getState().getQ()[0], 1.5 + 0.5 * std::cos(1.5), 1e-9);
+}
+
 TEST(PrescribedTension, FromTheStateATimeFunctionOrACallback) {
     StraightCable scene;
     const PrescribedTensionForce constant(scene.forces, scene.cable, 3);
@@ -124,13 +156,6 @@ TEST(CableForceLaws, AUsersLawKeepsItsOwnVariables) {
     scene.system.realize(state, Stage::Velocity);
     EXPECT_NEAR(force.getTension(state), scene.cable.getLength(state), 1e-8);
     EXPECT_NEAR(state.getQ()[0], 2 * std::cos(0.5) + 0.5 * std::sin(0.5), 1e-8);
-}
-
-TEST(CableDecorationsTest, DrawCablesAndSurfaces) {
-    MechanismScene scene;
-    SimTK::Array_<SimTK::DecorativeGeometry> geometry;
-    CableDecorations(scene.cables).generateDecorations(scene.makeState(0), geometry);
-    EXPECT_GT(geometry.size(), 3u + 5u);
 }
 
 }  // namespace

@@ -1,30 +1,133 @@
+#include <map>
+
 #include "adapter_scenes.h"
+#include "tautline/simbody/cable_forces.h"
+#include "tautline/simbody/hill_muscle.h"
 
 namespace tautline::testing {
 namespace {
 
+using Query = std::function<void(const State&)>;
+
+/** Every query of a cable, with the name that its stage error must give. */
+std::map<std::string, Query> makePositionQueries(const MechanismScene& scene) {
+    const Cable cable = scene.cable;
+    const CableElementIndex sphere = scene.sphere, point = scene.point;
+    return {{"Cable::getLength()", [=](const State& s) { cable.getLength(s); }},
+            {"Cable::getStatus()", [=](const State& s) { cable.getStatus(s); }},
+            {"Cable::calcStatus()", [=](const State& s) { cable.calcStatus(s); }},
+            {"Cable::getPathError()", [=](const State& s) { cable.getPathError(s); }},
+            {"Cable::getSolution()", [=](const State& s) { cable.getSolution(s); }},
+            {"Cable::calcVerification()", [=](const State& s) { cable.calcVerification(s); }},
+            {"Cable::isActive()", [=](const State& s) { cable.isActive(s, point); }},
+            {"Cable::calcStation()", [=](const State& s) { cable.calcStation(s, point); }},
+            {"Cable::isTouched()", [=](const State& s) { cable.isTouched(s, sphere); }},
+            {"Cable::getArcLength()", [=](const State& s) { cable.getArcLength(s, sphere); }},
+            {"Cable::getContactPoints()",
+             [=](const State& s) {
+                 SimTK::Vec3 P, Q;
+                 cable.getContactPoints(s, sphere, P, Q);
+             }},
+            {"Cable::getContactFrames()",
+             [=](const State& s) {
+                 Transform X_GP, X_GQ;
+                 cable.getContactFrames(s, sphere, X_GP, X_GQ);
+             }},
+            {"Cable::getClearance()", [=](const State& s) { cable.getClearance(s, sphere); }},
+            {"Cable::getWitness()", [=](const State& s) { cable.getWitness(s, sphere); }},
+            {"Cable::calcDrawingPoints()", [=](const State& s) { cable.calcDrawingPoints(s); }},
+            {"Cable::applyBodyForces()",
+             [=](const State& s) {
+                 SimTK::Vector_<SimTK::SpatialVec> F(5, SimTK::SpatialVec(SimTK::Vec3(0)));
+                 cable.applyBodyForces(s, 1, F);
+             }},
+            {"Cable::applyMobilityForces()",
+             [=](const State& s) {
+                 SimTK::Vector f(s.getNU(), Real(0));
+                 cable.applyMobilityForces(s, 1, f);
+             }},
+            {"Cable::calcUnitBodyForces()",
+             [=](const State& s) {
+                 SimTK::Vector_<SimTK::SpatialVec> F;
+                 cable.calcUnitBodyForces(s, F);
+             }},
+            {"Cable::calcUnitElementForce()", [=](const State& s) { cable.calcUnitElementForce(s, point); }},
+            {"Cable::calcUnitBodyForces()#mobility",
+             [=](const State& s) {
+                 SimTK::Vector f;
+                 cable.calcUnitMobilityForces(s, f);
+             }},
+            {"Cable::fixContacts()", [=](const State& s) {
+                 State copy = s;
+                 copy.invalidateAllCacheAtOrAbove(Stage::Position);
+                 cable.fixContacts(copy);
+             }}};
+}
+
 TEST(CableStages, AskedTooEarlyThrowsTheStageError) {
     MechanismScene scene;
-    const Cable& cable = scene.cable;
     State state = scene.makeState(0);
     scene.system.realize(state, Stage::Time);
-    SimTK::Vector_<SimTK::SpatialVec> F_G;
-    EXPECT_MESSAGE(cable.getLength(state), "Cable::getLength()");
-    EXPECT_THROW(cable.getLength(state), SimTK::Exception::StageTooLow);
-    EXPECT_THROW(cable.isTouched(state, scene.sphere), SimTK::Exception::StageTooLow);
-    EXPECT_THROW(cable.getSolution(state), SimTK::Exception::StageTooLow);
-    EXPECT_THROW(cable.calcUnitBodyForces(state, F_G), SimTK::Exception::StageTooLow);
-    EXPECT_THROW(cable.calcDrawingPoints(state), SimTK::Exception::StageTooLow);
+    for (const auto& [name, query] : makePositionQueries(scene)) {
+        SCOPED_TRACE(name);
+        EXPECT_THROW(query(state), SimTK::Exception::StageTooLow);
+        EXPECT_MESSAGE(query(state), name.substr(0, name.find('#')));
+    }
+    const std::map<std::string, Query> velocityQueries = {
+        {"Cable::getLengthRate()", [&](const State& s) { scene.cable.getLengthRate(s); }},
+        {"Cable::calcPower()", [&](const State& s) { scene.cable.calcPower(s, 1); }}};
     scene.system.realize(state, Stage::Position);
-    EXPECT_NO_THROW(cable.getLength(state));
-    EXPECT_MESSAGE(cable.getLengthRate(state), "Cable::getLengthRate()");
-    EXPECT_THROW(cable.getLengthRate(state), SimTK::Exception::StageTooLow);
-    EXPECT_THROW(cable.calcPower(state, 1), SimTK::Exception::StageTooLow);
+    for (const auto& [name, query] : makePositionQueries(scene))
+        if (name != "Cable::fixContacts()") {
+            EXPECT_NO_THROW(query(state)) << name;
+        }
+    for (const auto& [name, query] : velocityQueries) {
+        EXPECT_THROW(query(state), SimTK::Exception::StageTooLow) << name;
+        EXPECT_MESSAGE(query(state), name);
+    }
     scene.system.realize(state, Stage::Velocity);
-    EXPECT_NO_THROW(cable.getLengthRate(state));
+    for (const auto& [name, query] : velocityQueries) EXPECT_NO_THROW(query(state)) << name;
     state.updQ()[0] += 0.01;
     scene.system.realize(state, Stage::Time);
-    EXPECT_THROW(cable.getLength(state), SimTK::Exception::StageTooLow);
+    EXPECT_THROW(scene.cable.getLength(state), SimTK::Exception::StageTooLow);
+}
+
+TEST(CableStages, SettersInvalidateTheirStage) {
+    MechanismScene scene;
+    PrescribedTensionForce tension(scene.forces, scene.cable, 1);
+    HillMuscle muscle(scene.forces, scene.cable, HillMuscleParameters());
+    scene.system.realizeTopology();
+    State state = scene.makeState(0);
+    const auto realizeAndSet = [&](const std::function<void(State&)>& set) {
+        scene.system.realize(state, Stage::Acceleration);
+        set(state);
+        return state.getSystemStage();
+    };
+    EXPECT_EQ(realizeAndSet([&](State& s) { scene.cable.fixContacts(s); }), Stage::Time);
+    EXPECT_EQ(realizeAndSet([&](State& s) { scene.cable.releaseContacts(s); }), Stage::Time);
+    EXPECT_EQ(realizeAndSet([&](State& s) { scene.cable.disable(s); }), Stage::Time);
+    EXPECT_EQ(realizeAndSet([&](State& s) { scene.cable.enable(s); }), Stage::Time);
+    EXPECT_EQ(realizeAndSet([&](State& s) { scene.cable.continueFrom(s, scene.cable.getSolution(s)); }), Stage::Time);
+    EXPECT_EQ(realizeAndSet([&](State& s) { tension.setTension(s, 2); }), Stage::Velocity);
+    EXPECT_EQ(realizeAndSet([&](State& s) { muscle.setExcitation(s, 0.2); }), Stage::Velocity);
+    EXPECT_EQ(realizeAndSet([&](State& s) { muscle.setActivation(s, 0.2); }), Stage::Velocity);
+}
+
+TEST(CableStages, BuildingInvalidatesTheTopology) {
+    MechanismScene scene;
+    const auto build = [&](const std::function<void()>& change) {
+        scene.system.realizeTopology();
+        change();
+        return !scene.system.systemTopologyHasBeenRealized();
+    };
+    MobilizedBody ground = scene.matter.Ground();
+    EXPECT_TRUE(build([&] { scene.cable.addViaPoint(ground, SimTK::Vec3(1)); }));
+    EXPECT_TRUE(build([&] { scene.cable.addObstacle(ground, SimTK::Vec3(5), std::make_shared<Sphere>(0.1)); }));
+    EXPECT_TRUE(build([&] { scene.cable.setHint(scene.sphere, PassOnSide{Vec3(0, 1, 0)}); }));
+    EXPECT_TRUE(build([&] { scene.cable.setOptions(PathSolverOptions()); }));
+    EXPECT_TRUE(build([&] { scene.cable.setDisabledByDefault(true); }));
+    EXPECT_TRUE(build([&] { Cable(scene.cables, ground, SimTK::Vec3(0), ground, SimTK::Vec3(1)); }));
+    EXPECT_FALSE(build([&] { scene.cable.setContactListener(nullptr); }));
 }
 
 TEST(CableStages, OneSolvePerPose) {
@@ -56,6 +159,54 @@ TEST(CableStages, ADisabledCableSolvesNothingAndSaysSo) {
     scene.cable.enable(state);
     scene.system.realize(state, Stage::Position);
     EXPECT_GT(scene.cable.getLength(state), 4);
+}
+
+/** A string whose end a slider carries through a sphere and out again: x from -1.5 to 1.5, radius 0.5. */
+TEST(CableStages, AcceptedStepsThatAreNoSolutionAreCounted) {
+    BareScene scene;
+    MobilizedBody::Slider slider(scene.matter.Ground(), Transform(), makeBody(), Transform());
+    Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(0, 3, 0), slider, SimTK::Vec3(0, 0.1, 0));
+    cable.addObstacle(scene.matter.Ground(), Transform(), std::make_shared<Sphere>(0.5));
+    Cable clear(scene.cables, scene.matter.Ground(), SimTK::Vec3(0, 3, 0), slider, SimTK::Vec3(0, 1, 0));
+    State state = scene.system.realizeTopology();
+    slider.setOneQ(state, 0, -1.5);
+    slider.setOneU(state, 0, 1);
+    SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+    integrator.setMaximumStepSize(0.01);
+    integrator.setReturnEveryInternalStep(true);
+    SimTK::TimeStepper stepper(scene.system, integrator);
+    stepper.setReportAllSignificantStates(true);
+    stepper.initialize(state);
+    while (integrator.getTime() < 3) {
+        stepper.stepTo(3);
+        scene.cables.countStep(integrator.getState());
+    }
+    const CableStatistics statistics = cable.getStatistics();
+    EXPECT_GE(statistics.numSteps, 300);
+    // Inside for a chord of the sphere at 0.1 above its centre.
+    const Real share = 2 * std::sqrt(0.24) / 3;
+    EXPECT_NEAR(Real(statistics.numDegradedSteps) / Real(statistics.numSteps), share, 0.02);
+    EXPECT_EQ(clear.getStatistics().numSteps, statistics.numSteps);
+    EXPECT_EQ(clear.getStatistics().numDegradedSteps, 0);
+}
+
+TEST(CableStages, StatusIsJudgedInFullWithContactsFixed) {
+    BareScene scene;
+    MobilizedBody::Slider slider(scene.matter.Ground(), Transform(), makeBody(), Transform());
+    Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(0, 3, 0), slider, SimTK::Vec3(0, 0.1, 0));
+    cable.addObstacle(scene.matter.Ground(), Transform(), std::make_shared<Sphere>(0.5));
+    State state = scene.system.realizeTopology();
+    slider.setOneQ(state, 0, -1.5);
+    scene.system.realize(state, Stage::Position);
+    cable.fixContacts(state);
+    const auto calcStatusAt = [&](Real x) {
+        slider.setOneQ(state, 0, x);
+        scene.system.realize(state, Stage::Position);
+        EXPECT_EQ(cable.getStatus(state), PathStatus::Solved);
+        return cable.calcStatus(state);
+    };
+    EXPECT_EQ(calcStatusAt(-1), PathStatus::Solved);
+    EXPECT_EQ(calcStatusAt(-0.3), PathStatus::EndInside);
 }
 
 }  // namespace

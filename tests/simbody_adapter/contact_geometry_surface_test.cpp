@@ -1,6 +1,12 @@
 #include "tautline/simbody/contact_geometry_surface.h"
 
+#include <thread>
+
 #include "adapter_scenes.h"
+#include "support/random.h"
+#include "tautline/plane.h"
+#include "tautline/polynomial_patch.h"
+#include "tautline/surface_laws.h"
 
 namespace tautline::testing {
 namespace {
@@ -22,21 +28,144 @@ TEST(ContactGeometrySurfaceTest, IsPositiveOutsideAndAsCurvedAsItsTwin) {
     EXPECT_LT(wrapped.getSize(), 5);
 }
 
-TEST(ContactGeometrySurfaceTest, WrapsLikeItsTwin) {
-    const auto calcLength = [](std::shared_ptr<const Surface> surface) {
+/** z = 0.5 - 0.4 x^2 - 0.3 y^2 over [-1, 1]^2, which bicubic patches hold exactly if they are given its slopes. */
+SimTK::ContactGeometry makeHeightMap() {
+    constexpr int n = 5;
+    SimTK::Vector x(n), y(n);
+    SimTK::Matrix f(n, n), fx(n, n), fy(n, n), fxy(n, n, Real(0));
+    for (int i = 0; i < n; ++i) x[i] = y[i] = -1 + 0.5 * i;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            f(i, j) = 0.5 - 0.4 * x[i] * x[i] - 0.3 * y[j] * y[j];
+            fx(i, j) = -0.8 * x[i], fy(i, j) = -0.6 * y[j];
+        }
+    return SimTK::ContactGeometry::SmoothHeightMap(SimTK::BicubicSurface(x, y, f, fx, fy, fxy));
+}
+
+std::shared_ptr<const Surface> makeHeightMapTwin() {
+    Eigen::MatrixXd p = Eigen::MatrixXd::Zero(3, 3);
+    p(0, 0) = 0.5, p(2, 0) = -0.4, p(0, 2) = -0.3;
+    return std::make_shared<PolynomialPatch>(PolynomialPatch::makeHeightPatch({Vec2(-1, -1), Vec2(1, 1)}, p));
+}
+
+/** A smooth geometry, the core's own surface of the same shape, where the string passes over it. */
+struct GeometryCase {
+    const char* name;
+    SimTK::ContactGeometry geometry;
+    double size;
+    std::shared_ptr<const Surface> twin;
+    SimTK::Vec3 A_S, B_S, hint_S;
+};
+
+std::vector<GeometryCase> makeGeometryCases() {
+    using G = SimTK::ContactGeometry;
+    using V = SimTK::Vec3;
+    return {
+        {"Sphere", G::Sphere(0.5), 0, std::make_shared<Sphere>(0.5), V(-2, 0.1, 0.1), V(2, 0.2, -0.3), V(0, 0.5, 0)},
+        {"Cylinder", G::Cylinder(0.5), 0, std::make_shared<Cylinder>(0.5), V(-2, 0.1, 0.1), V(2, 0.2, -0.3),
+         V(0, 0.5, 0)},
+        {"Ellipsoid", G::Ellipsoid(V(0.5, 0.6, 0.7)), 0, std::make_shared<Ellipsoid>(Vec3(0.5, 0.6, 0.7)),
+         V(-2, 0.1, 0.1), V(2, 0.2, -0.3), V(0, 0.6, 0)},
+        {"Torus", G::Torus(1, 0.3), 0, std::make_shared<Torus>(1, 0.3), V(0.9, 0.1, -2), V(1.1, -0.2, 2), V(0.7, 0, 0)},
+        {"SmoothHeightMap", makeHeightMap(), 0, makeHeightMapTwin(), V(-0.9, 0.1, 0.3), V(0.8, -0.2, 0.35),
+         V(0, 0, 0.5)},
+    };
+}
+
+Cable makeCable(BareScene& scene, const GeometryCase& c, std::shared_ptr<const Surface> surface) {
+    Cable cable(scene.cables, scene.matter.Ground(), c.A_S, scene.matter.Ground(), c.B_S);
+    cable.addObstacle(scene.matter.Ground(), Transform(), std::move(surface), c.hint_S);
+    return cable;
+}
+
+TEST(ContactGeometrySurfaceTest, EverySmoothKindWrapsLikeItsTwin) {
+    for (const GeometryCase& c : makeGeometryCases()) {
+        SCOPED_TRACE(c.name);
+        const auto calcLength = [&](std::shared_ptr<const Surface> surface) {
+            BareScene scene;
+            const Cable cable = makeCable(scene, c, std::move(surface));
+            const State state = scene.system.realizeTopology();
+            scene.system.realize(state, Stage::Position);
+            EXPECT_EQ(cable.getStatus(state), PathStatus::Solved);
+            EXPECT_TRUE(cable.isTouched(state, CableElementIndex(1)));
+            return cable.getLength(state);
+        };
+        EXPECT_NEAR(calcLength(std::make_shared<ContactGeometrySurface>(c.geometry, c.size)), calcLength(c.twin), 1e-9);
+    }
+}
+
+TEST(ContactGeometrySurfaceTest, EverySmoothKindObeysTheLaws) {
+    std::vector<GeometryCase> cases = makeGeometryCases();
+    cases.push_back({"HalfSpace", SimTK::ContactGeometry::HalfSpace(), 1, nullptr, {}, {}, {}});
+    Random random(11);
+    for (const GeometryCase& c : cases) {
+        SCOPED_TRACE(c.name);
+        const ContactGeometrySurface surface(c.geometry, c.size);
+        std::vector<SurfaceLawSample> samples;
+        for (int i = 0; i < 20; ++i) {
+            SurfaceLawSample sample{random.vector(0.5), random.vector(1), 0.3};
+            if (std::string(c.name) == "Torus") sample.p_S = Vec3(0.9, 0.1, 0.1) + 0.3 * sample.p_S;
+            Vec3 N;
+            surface.calcHeight(surface.findSurfacePoint(sample.p_S).p, N);
+            if (sample.direction_S.cross(N).norm() < 0.3) sample.direction_S = N.unitOrthogonal();
+            samples.push_back(sample);
+        }
+        for (const std::string& broken : checkSurfaceLaws(surface, samples)) ADD_FAILURE() << broken;
+    }
+}
+
+TEST(ContactGeometrySurfaceTest, AHalfSpaceIsAPlaneAndNeedsASize) {
+    // SimTK's half space is where x > 0.
+    const ContactGeometrySurface surface(SimTK::ContactGeometry::HalfSpace(), 2);
+    Vec3 N;
+    EXPECT_NEAR(surface.calcHeight(Vec3(-0.3, 1, 2), N), 0.3, 1e-15);
+    EXPECT_LT((N - Vec3(-1, 0, 0)).norm(), 1e-15);
+    EXPECT_MESSAGE(ContactGeometrySurface(SimTK::ContactGeometry::HalfSpace()), "size must be positive and finite");
+}
+
+TEST(ContactGeometrySurfaceTest, AHeightMapIsOutsideAboveAndGoesOnBeyondItsEdges) {
+    const ContactGeometrySurface surface(makeHeightMap());
+    const auto twin = makeHeightMapTwin();
+    for (const Vec3& p : {Vec3(0.2, 0.3, 1), Vec3(0.2, 0.3, -1), Vec3(1.4, 0.2, 0.1), Vec3(-1.2, 3, 0.5)}) {
+        Vec3 N, twinN;
+        EXPECT_NEAR(surface.calcHeight(p, N), twin->calcHeight(p, twinN), 1e-13);
+        EXPECT_LT((N - twinN).norm(), 1e-13);
+    }
+    EXPECT_TRUE(surface.isInDomain({Vec3(0.9, -0.9, -0.067), Vec2::Zero(), 0}));
+    EXPECT_FALSE(surface.isInDomain({Vec3(1.1, 0, 0.016), Vec2::Zero(), 0}));
+}
+
+TEST(ContactGeometrySurfaceTest, APathOverTheEdgeOfAHeightMapHasLeftItsDomain) {
+    BareScene scene;
+    const GeometryCase c{
+        "", makeHeightMap(), 0, nullptr, SimTK::Vec3(1.2, -3, -2), SimTK::Vec3(1.25, 3, -2), SimTK::Vec3(1.2, 0, 0)};
+    const Cable cable = makeCable(scene, c, std::make_shared<ContactGeometrySurface>(c.geometry));
+    const State state = scene.system.realizeTopology();
+    scene.system.realize(state, Stage::Position);
+    EXPECT_EQ(cable.getStatus(state), PathStatus::LeftDomain);
+    EXPECT_TRUE(std::isfinite(cable.getLength(state)));
+}
+
+TEST(ContactGeometrySurfaceTest, ThreadsShareAHeightMap) {
+    const auto surface = std::make_shared<ContactGeometrySurface>(makeHeightMap());
+    // Paths that keep to different patches.
+    const auto calcLength = [&](int i) {
         BareScene scene;
-        Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(-2, 0.1, 0.1), scene.matter.Ground(),
-                    SimTK::Vec3(2, 0.2, -0.3));
-        cable.addObstacle(scene.matter.Ground(), Transform(), std::move(surface), SimTK::Vec3(0, 0.6, 0));
+        const Real y = -0.8 + 0.4 * i;
+        Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(-0.9, y, 0.3), scene.matter.Ground(),
+                    SimTK::Vec3(0.9, y + 0.05, 0.3));
+        cable.addObstacle(scene.matter.Ground(), Transform(), surface, SimTK::Vec3(0, y, 0.5));
         const State state = scene.system.realizeTopology();
         scene.system.realize(state, Stage::Position);
-        EXPECT_EQ(cable.getStatus(state), PathStatus::Solved);
-        EXPECT_TRUE(cable.isTouched(state, CableElementIndex(1)));
         return cable.getLength(state);
     };
-    EXPECT_NEAR(
-        calcLength(std::make_shared<ContactGeometrySurface>(SimTK::ContactGeometry::Ellipsoid({0.5, 0.6, 0.7}))),
-        calcLength(std::make_shared<Ellipsoid>(Vec3(0.5, 0.6, 0.7))), 1e-9);
+    constexpr int n = 5;
+    std::vector<Real> expected(n), found(n);
+    for (int i = 0; i < n; ++i) expected[i] = calcLength(i);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < n; ++i) threads.emplace_back([&, i] { found[i] = calcLength(i); });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(found, expected);
 }
 
 TEST(ContactGeometrySurfaceTest, RefusesWhatIsNotSmooth) {

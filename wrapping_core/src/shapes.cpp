@@ -140,24 +140,6 @@ double Cylinder::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length
     return sine2 > 0 ? std::clamp(-A_S.head<2>().dot(e_S.head<2>()) / sine2, 0.0, length) : 0;
 }
 
-/** From afar the foot is x_i = a_i^2 p_i/(t + a_i^2) with t the root of sum (a_i p_i/(t + a_i^2))^2 = 1, a convex
-falling function: Newton's method from where one term alone is 1 comes to it from below. */
-SurfacePoint Ellipsoid::findSurfacePoint(const Vec3& p_S) const {
-    constexpr double kNear = 0.2;  // in sizes; there the way of steepest descent is shorter
-    constexpr int kMaxIterations = 60;
-    if (!(calcImplicit(p_S).f > kNear * getSize())) return {projectToSurface(p_S)};
-    const Vec3 squares = m_semiAxes.cwiseProduct(m_semiAxes), scaled = m_semiAxes.cwiseProduct(p_S);
-    double t = std::max(0.0, (scaled.cwiseAbs() - squares).maxCoeff());
-    for (int i = 0; i < kMaxIterations; ++i) {
-        const Vec3 weights = (squares.array() + t).inverse(), terms = scaled.cwiseProduct(weights);
-        const double g = terms.squaredNorm() - 1, slope = -2 * terms.cwiseProduct(terms).dot(weights);
-        const double step = -g / slope;
-        if (!(step > 1e-12 * t)) break;
-        t += step;
-    }
-    return {projectToSurface(squares.cwiseProduct(p_S).array() / (squares.array() + t))};
-}
-
 Torus::Torus(double ringRadius, double tubeRadius) : m_ringRadius(ringRadius), m_tubeRadius(tubeRadius) {
     requireLength(ringRadius, "torus: ring radius");
     requireLength(tubeRadius, "torus: tube radius");

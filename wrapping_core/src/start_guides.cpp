@@ -67,25 +67,38 @@ void guide(const Surface& surface, const WindAround& hint, const Chord& chord, s
     }
 }
 
-/** Through the centre of the hole each time, and back around the outside between two passages and where an end is
-on the wrong side of it. */
+/** Points of a ring's tube in the half plane of one azimuth. */
+struct TubePoints {
+    Vec3 inner, outer, top, bottom;
+
+    TubePoints(const Surface& surface, double azimuth) {
+        const double size = surface.getSize(), far = kFar * size;
+        inner = surface.findSurfacePoint(makeCylindrical(1e-3 * size, azimuth, 0)).p;
+        outer = surface.findSurfacePoint(makeCylindrical(far, azimuth, 0)).p;
+        const Vec3 middle = 0.5 * (inner + outer);
+        top = surface.findSurfacePoint(middle + far * Vec3::UnitZ()).p;
+        bottom = surface.findSurfacePoint(middle - far * Vec3::UnitZ()).p;
+    }
+};
+
+/** Through the hole each time, around the tube between two passages, and around the outside where an end is on the
+wrong side of the ring. */
 void guide(const Surface& surface, const ThreadHole& hint, const Chord& chord, std::vector<Vec3>& guides_S) {
-    const double direction = hint.passages < 0 ? -1 : 1;
-    const int passages = std::abs(hint.passages);
-    const auto goOutside = [&](const Vec3& end) {
-        const Vec3 outside = makeCylindrical(kFar * surface.getSize(), calcAzimuth(end), 0);
-        guides_S.push_back(surface.findSurfacePoint(outside).p);
-    };
-    if (passages == 0) {
-        if (surface.countHoleCrossings(chord.A_S, chord.B_S) != 0) goOutside(chord.A_S);
+    const bool isUpward = hint.passages >= 0;
+    const TubePoints tube(surface, calcAzimuth(chord.A_S));
+    if (hint.passages == 0) {
+        if (surface.countHoleCrossings(chord.A_S, chord.B_S) != 0) guides_S.push_back(tube.outer);
         return;
     }
-    if (direction * chord.A_S.z() > 0) goOutside(chord.A_S);
-    for (int i = 0; i < passages; ++i) {
-        if (i > 0) goOutside(chord.A_S);
-        guides_S.emplace_back(Vec3::Zero());
+    if ((chord.A_S.z() > 0) == isUpward) guides_S.push_back(tube.outer);
+    guides_S.push_back(std::abs(hint.passages) == 1 ? Vec3(Vec3::Zero()) : tube.inner);
+    for (int i = 1; i < std::abs(hint.passages); ++i) {
+        const Vec3 &leave = isUpward ? tube.top : tube.bottom, &enter = isUpward ? tube.bottom : tube.top;
+        guides_S.insert(guides_S.end(), {leave, tube.outer, enter, tube.inner});
     }
-    if (direction * chord.B_S.z() < 0) goOutside(chord.B_S);
+    if ((chord.B_S.z() < 0) == isUpward)
+        guides_S.push_back(
+            surface.findSurfacePoint(makeCylindrical(kFar * surface.getSize(), calcAzimuth(chord.B_S), 0)).p);
 }
 
 /** The next point that the string is sure to pass: a fixed point or a hinted one. */

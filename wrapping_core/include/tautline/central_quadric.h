@@ -1,4 +1,7 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "tautline/implicit_surface.h"
 
 namespace tautline {
@@ -14,6 +17,29 @@ public:
     ImplicitValue calcImplicit(const Vec3& p) const {
         const Vec3 gradient = m_hessian.cwiseProduct(p);
         return {0.5 * (gradient.dot(p) - m_size), gradient, m_hessian.asDiagonal()};
+    }
+
+    /** The nearest point, also from afar, where the way of steepest descent leads elsewhere if the surface is thin:
+    x_i = p_i/(1 + t D_i) with t the root of g = sum D_i x_i^2 - 1, which falls and is convex, so that Newton's method
+    comes to it from below, from where one term alone is 1. */
+    SurfacePoint findSurfacePoint(const Vec3& p_S) const override {
+        constexpr double kNear = 0.2;  // in sizes; there the way of steepest descent is shorter
+        constexpr int kMaxIterations = 60;
+        if (!(calcImplicit(p_S).f > kNear * m_size)) return {this->projectToSurface(p_S)};
+        const Vec3 D = m_hessian / m_size;
+        double t = 0;
+        for (int i = 0; i < 3; ++i)
+            if (D[i] > 0) t = std::max(t, (std::abs(p_S[i]) * std::sqrt(D[i]) - 1) / D[i]);
+        Vec3 x = p_S;
+        for (int i = 0; i < kMaxIterations; ++i) {
+            const Vec3 shrink = (1 + t * D.array()).inverse();
+            x = p_S.cwiseProduct(shrink);
+            const Vec3 terms = D.cwiseProduct(x).cwiseProduct(x);
+            const double step = (terms.sum() - 1) / (2 * terms.cwiseProduct(D).dot(shrink));
+            if (!(step > 1e-12 * t)) break;
+            t += step;
+        }
+        return {this->projectToSurface(x)};
     }
 
     /** The minimum of f along the line. */

@@ -11,8 +11,6 @@ public:
 
     const Vec3& getSemiAxes() const { return m_semiAxes; }
     std::string getDescription() const override;
-    /** The nearest point, also from afar, where the way of steepest descent leads elsewhere on a thin ellipsoid. */
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
 
 private:
     Vec3 m_semiAxes;

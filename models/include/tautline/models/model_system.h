@@ -77,6 +77,8 @@ public:
     }
     /** The same for any cable of the system. */
     double calcMomentArm(const SimTK::State& state, const Cable& cable, const std::string& coordinate) const;
+    /** Those about all coordinates, in the order of BuiltModel::getCoordinateNames(), at the cost of one. */
+    std::vector<double> calcMomentArms(const SimTK::State& state, const Cable& cable) const;
 
 private:
     Cable addCable(const ModelDescription& description, const std::string& kind, const std::string& name,

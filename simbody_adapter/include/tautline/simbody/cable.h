@@ -11,6 +11,7 @@
 #include "tautline/path_verification.h"
 #include "tautline/simbody/cable_subsystem.h"
 #include "tautline/simbody/moving_station.h"
+#include "tautline/start_hint.h"
 
 namespace tautline {
 
@@ -40,6 +41,8 @@ struct CableStatistics {
     long numShots = 0;          ///< geodesics shot
     long numContactEvents = 0;  ///< contacts made or lost by the event handlers
     double seconds = 0;         ///< spent in the solver
+    long numSteps = 0;          ///< accepted steps that CableSubsystem::countStep() was told of
+    long numDegradedSteps = 0;  ///< of those, with a status other than Solved: Cable::calcStatus()
 };
 
 /** A taut, frictionless, massless string from a point on one body over via points and smooth obstacles on
@@ -81,7 +84,7 @@ public:
     void setMovingOrigin(std::shared_ptr<const MovingStation> station);
     void setMovingInsertion(std::shared_ptr<const MovingStation> station);
 
-    /** Adds an obstacle after what has been added so far, and the event handler that watches it.
+    /** Adds an obstacle after what has been added so far, and the event handlers that watch it.
     @param X_BS      pose of the surface frame S on the body
     @param surface   may be shared between obstacles
     @param hint_S    a point near which the path shall run at first, in S; none: the solver finds a side
@@ -89,8 +92,13 @@ public:
     CableElementIndex addObstacle(const SimTK::MobilizedBody& body, const SimTK::Transform& X_BS,
                                   std::shared_ptr<const Surface> surface,
                                   std::optional<SimTK::Vec3> hint_S = std::nullopt, std::string name = "");
+    /** As above. @param hint   a side, a winding, how often through a hole: see StartHint */
+    CableElementIndex addObstacle(const SimTK::MobilizedBody& body, const SimTK::Transform& X_BS,
+                                  std::shared_ptr<const Surface> surface, const StartHint& hint, std::string name = "");
 
+    /** How the path is laid where it is found anew; invalidates the topology. */
     void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
+    void setHint(CableElementIndex obstacle, const StartHint& hint);
 
     /** @throws InvalidInput naming the option out of range */
     void setOptions(const PathSolverOptions& options);
@@ -151,6 +159,9 @@ public:
     ///@{
     SimTK::Real getLength(const SimTK::State& state) const;
     PathStatus getStatus(const SimTK::State& state) const;
+    /** As getStatus(), with all conditions judged also while contacts are fixed. An arc just below zero length is no
+    fault then: between events the event finder watches it. */
+    PathStatus calcStatus(const SimTK::State& state) const;
     /** max |eps|, dimensionless. */
     SimTK::Real getPathError(const SimTK::State& state) const;
     const PathSolution& getSolution(const SimTK::State& state) const;
@@ -167,6 +178,9 @@ public:
     /** Where the path meets (P) and leaves (Q) an obstacle, in ground. @return false while lifted */
     bool getContactPoints(const SimTK::State& state, CableElementIndex obstacle, SimTK::Vec3& P_G,
                           SimTK::Vec3& Q_G) const;
+    /** The frames there: x along the path, y the outward normal, z = x cross y. @return false while lifted */
+    bool getContactFrames(const SimTK::State& state, CableElementIndex obstacle, SimTK::Transform& X_GP,
+                          SimTK::Transform& X_GQ) const;
     /** Signed distance of the straight segment that passes a lifted obstacle [m]; NaN while touched. */
     SimTK::Real getClearance(const SimTK::State& state, CableElementIndex obstacle) const;
     /** What the event finder watches, dimensionless: contact changes where it falls below zero. Lifted:

@@ -29,6 +29,27 @@ public:
     SimTK::Real getPowerDissipation(const SimTK::State& state) const;
 };
 
+/** A spring with a rest length in line with the cable, and a damper beside it. With stretch x = length - rest length,
+
+    tension = max(0, k max(0, x) + c xdot);    potential energy = k x^2 / 2 for x > 0.
+
+Unlike in ElasticStringForce the damper holds by itself: it brakes a cable that is paid out even below the rest
+length. */
+class CableSpringForce : public CableForce {
+public:
+    CableSpringForce() = default;
+    /** @param restLength   [m], >= 0
+    @param stiffness    k [N/m], >= 0
+    @param damping      c [N s/m], >= 0
+    @throws InvalidInput with the value */
+    CableSpringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, SimTK::Real restLength,
+                     SimTK::Real stiffness, SimTK::Real damping = 0);
+
+    SimTK::Real getRestLength() const;
+    SimTK::Real getStiffness() const;
+    SimTK::Real getDamping() const;
+};
+
 /** A tension that somebody else decides. No potential energy. */
 class PrescribedTensionForce : public CableForce {
 public:

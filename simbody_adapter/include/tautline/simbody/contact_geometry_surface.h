@@ -1,19 +1,25 @@
 #pragma once
 #include <Simbody.h>
 
+#include <memory>
+
 #include "tautline/implicit_surface.h"
 
 namespace tautline {
 
+class HeightMapPatch;
+
 /** Any smooth SimTK::ContactGeometry (isSmooth()) as a surface that a cable can wrap. SimTK's implicit
 function is positive inside; its sign is turned here and nowhere else.
 
-Not for height maps in several threads: SmoothHeightMap keeps a hint in its function object. */
+A SmoothHeightMap is defined over a rectangle: beyond its edges iterates go on over a smooth continuation, and an
+answer that lies there has the status LeftDomain. Its bicubic surface is asked directly, with a hint of each call's
+own, since SmoothHeightMap shares one between threads. */
 class ContactGeometrySurface final : public ImplicitSurface {
 public:
     /** @param geometry   smooth; copied
-    @param size       characteristic length [m]; 0: about the smallest radius of curvature where the
-                      way down from (1, 1, 1) meets the surface
+    @param size       characteristic length [m]; 0: about the smallest radius of curvature where the way down from
+                      (1, 1, 1) meets the surface, half the shorter side of a height map. A half space needs one
     @throws InvalidInput if the geometry is not smooth or the size not positive and finite */
     explicit ContactGeometrySurface(const SimTK::ContactGeometry& geometry, double size = 0);
 
@@ -21,9 +27,11 @@ public:
     std::string getDescription() const override;
     double getSize() const override { return m_size; }
     ImplicitValue calcImplicit(const Vec3& p_S) const override;
+    bool isInDomain(const SurfacePoint& point) const override;
 
 private:
     SimTK::ContactGeometry m_geometry;
+    std::shared_ptr<const HeightMapPatch> m_heightMap;  ///< null unless the geometry is one
     double m_size;
 };
 

@@ -1,0 +1,199 @@
+/** What a user may say about the first course of a path: side, winding, threading; and what a ring keeps. */
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tautline/cylinder.h"
+#include "tautline/ellipsoid.h"
+#include "tautline/error.h"
+#include "tautline/hole_passage.h"
+#include "tautline/parametric_torus.h"
+#include "tautline/path_solver.h"
+#include "tautline/path_verification.h"
+#include "tautline/sphere.h"
+#include "tautline/torus.h"
+
+namespace tautline {
+namespace {
+
+/** A path from A over one obstacle in ground's frame to B. */
+struct SingleObstacle {
+    PathProblem problem;
+    PathPose pose;
+    PathSolution path;
+
+    SingleObstacle(std::shared_ptr<const Surface> surface, const StartHint& hint, const Vec3& A, const Vec3& B) {
+        problem.addPoint("origin");
+        problem.addObstacle("obstacle", std::move(surface), hint);
+        problem.addPoint("insertion");
+        pose.X_GE = {Pose(A), Pose(), Pose(B)};
+        solve();
+    }
+    void solve() { PathSolver().solve(problem, pose, path); }
+    const ObstacleContact& contact() const { return path.contacts[1]; }
+    HolePassage passage() const {
+        const StraightSegment& out = path.segments[contact().isTouched ? 1 : 0];
+        return calcHolePassage(*problem.getElement(1).surface, Pose(), contact(), path.segments[0], out);
+    }
+};
+
+TEST(StartSide, DecidesOnWhichSideAPathPasses) {
+    const Vec3 A(-3, 0.2, 0.1), B(3, 0.2, -0.4);
+    for (const double side : {1.0, -1.0}) {
+        const SingleObstacle scene(std::make_shared<Cylinder>(1), PassOnSide{Vec3(0, side, 0)}, A, B);
+        EXPECT_EQ(scene.path.status, PathStatus::Solved);
+        ASSERT_TRUE(scene.contact().isTouched);
+        EXPECT_GT(side * scene.contact().geodesic.P.x.y(), 0.5);
+    }
+}
+
+TEST(StartSide, LeavesALineAloneThatIsClearOnThatSide) {
+    const Vec3 A(-3, 1.5, 0), B(3, 1.5, 0);
+    const SingleObstacle above(std::make_shared<Sphere>(1), PassOnSide{Vec3(0, 1, 0)}, A, B);
+    EXPECT_FALSE(above.contact().isTouched);
+    EXPECT_DOUBLE_EQ(above.path.length, 6);
+    const SingleObstacle below(std::make_shared<Cylinder>(1), PassOnSide{Vec3(0, -1, 0)}, A, B);
+    EXPECT_EQ(below.path.status, PathStatus::Solved);
+    EXPECT_TRUE(below.contact().isTouched);
+}
+
+// Unrolled, a helix and its tangents are one straight line: length^2 = (planar length)^2 + (rise)^2.
+TEST(StartWinding, TakesTheTurnsThatAreAskedForInClosedForm) {
+    const double radius = 0.5, rise = 0.8;
+    const Vec3 A(-2, 0.3, 0), B(1.5, 0.4, rise);
+    const double toA = std::hypot(A.x(), A.y()), toB = std::hypot(B.x(), B.y());
+    const double direct = std::atan2(B.y(), B.x()) - std::atan2(A.y(), A.x());
+    for (const double turns : {-3.0, -2.5, -1.5, -0.5, 0.5, 1.5, 2.5, 3.0}) {
+        const double swept = std::abs(direct + 2 * kPi * std::round(turns - direct / (2 * kPi)));
+        const double arc = swept - std::acos(radius / toA) - std::acos(radius / toB);
+        const double planar =
+            std::sqrt(toA * toA - radius * radius) + std::sqrt(toB * toB - radius * radius) + radius * arc;
+        const SingleObstacle scene(std::make_shared<Cylinder>(radius), WindAround{turns}, A, B);
+        EXPECT_EQ(scene.path.status, PathStatus::Solved) << turns;
+        EXPECT_NEAR(scene.path.length, std::hypot(planar, rise), 1e-10) << turns;
+        const DarbouxFrame& P = scene.contact().geodesic.P;
+        EXPECT_GT(turns * P.t.dot(Vec3::UnitZ().cross(P.x)), 0) << "turns the other way, " << turns;
+    }
+}
+
+TEST(StartThreading, LeadsThroughARingThatTheStraightLinePasses) {
+    // The straight line is clear of the ring.
+    const Vec3 A(2, 0.1, 1), B(2, -0.2, -1);
+    const SingleObstacle free(std::make_shared<Torus>(1, 0.2), {}, A, B);
+    EXPECT_FALSE(free.contact().isTouched);
+    for (const auto& ring : {std::shared_ptr<const Surface>(std::make_shared<Torus>(1, 0.2)),
+                             std::shared_ptr<const Surface>(std::make_shared<ParametricTorus>(1, 0.2))}) {
+        const SingleObstacle threaded(ring, ThreadHole{-1}, A, B);
+        EXPECT_EQ(threaded.path.status, PathStatus::Solved);
+        EXPECT_TRUE(threaded.contact().isTouched);
+        EXPECT_EQ(threaded.passage().count, -1);
+        EXPECT_GT(threaded.path.length, free.path.length);
+    }
+}
+
+TEST(StartThreading, KeepsThePathOutOfARingWherePassagesAreZero) {
+    const Vec3 A(0.3, 0, 2), B(0.3, 0.1, -2);
+    const SingleObstacle inside(std::make_shared<Torus>(1, 0.2), {}, A, B);
+    EXPECT_EQ(inside.passage().count, -1);
+    const SingleObstacle outside(std::make_shared<Torus>(1, 0.2), ThreadHole{0}, A, B);
+    EXPECT_EQ(outside.path.status, PathStatus::Solved);
+    EXPECT_EQ(outside.passage().count, 0);
+    EXPECT_TRUE(outside.contact().isTouched);
+}
+
+TEST(StartThreading, GoesAroundTheTubeWhereARingIsThreadedTwice) {
+    const SingleObstacle once(std::make_shared<Torus>(1, 0.2), ThreadHole{1}, Vec3(0.9, 0, -2), Vec3(0.9, 0.1, 2));
+    const SingleObstacle twice(std::make_shared<Torus>(1, 0.2), ThreadHole{2}, Vec3(0.9, 0, -2), Vec3(0.9, 0.1, 2));
+    EXPECT_EQ(once.passage().count, 1);
+    EXPECT_EQ(twice.passage().count, 2);
+    EXPECT_LE(twice.path.pathError, 1e-11);
+    EXPECT_NEAR(twice.path.length - once.path.length, 2 * kPi * 0.2, 0.05);  // once more around the tube
+}
+
+// Lines through the hole, some through the inner half of the tube, thread the ring; others do not.
+TEST(StartThreading, FollowsTheStraightLineWhereNothingIsSaid) {
+    for (const double rho : {0.0, 0.4, 0.75, 0.81, 0.9, 0.97, 1.03, 1.1, 1.25, 2.0})
+        for (const double slant : {-0.8, 0.0, 0.8}) {
+            const Vec3 through = rho * Vec3(std::cos(0.4), std::sin(0.4), 0), along(slant, 0.2, 1);
+            const SingleObstacle scene(std::make_shared<Torus>(1, 0.2), {}, through - 3 * along, through + 3 * along);
+            EXPECT_EQ(scene.path.status, PathStatus::Solved) << rho << " " << slant;
+            EXPECT_EQ(scene.passage().count, rho < 1 ? 1 : 0) << rho << " " << slant;
+        }
+}
+
+TEST(HolePassage, KeepsAThreadedPathThroughARingThatJumps) {
+    SingleObstacle scene(std::make_shared<Torus>(1, 0.2), {}, Vec3(0, 0.1, -3), Vec3(0.1, 0, 3));
+    ASSERT_EQ(scene.passage().count, 1);
+    ASSERT_FALSE(scene.contact().isTouched);
+    for (const double y : {2.0, 0.3, -1.8, 0.0}) {
+        scene.pose.X_GE[1].p = Vec3(0, y, 0);
+        scene.solve();
+        EXPECT_EQ(scene.path.status, PathStatus::Solved) << y;
+        EXPECT_EQ(scene.contact().passage.count, 1) << y;
+        EXPECT_FALSE(scene.contact().hasLeftHole) << y;
+        EXPECT_EQ(scene.contact().isTouched, std::abs(y) > 0.75) << y;
+    }
+}
+
+TEST(HolePassage, ReportsAPathThatLeavesItsRing) {
+    SingleObstacle scene(std::make_shared<Torus>(1, 0.2), {}, Vec3(0, 0.1, -3), Vec3(0.1, 0, 3));
+    scene.pose.X_GE[1].p = Vec3(0, 2, 0);
+    PathSolverOptions options;
+    options.allowsColdStart = false;  // nothing leads back through the ring
+    PathSolver(options).solve(scene.problem, scene.pose, scene.path);
+    EXPECT_TRUE(scene.contact().hasLeftHole);
+    EXPECT_EQ(scene.contact().passage.count, 0);
+}
+
+// An end that moves around the ring takes the string out of it: nothing to report.
+TEST(HolePassage, FollowsAnEndThatIsPulledThroughTheHole) {
+    SingleObstacle scene(std::make_shared<Torus>(1, 0.2), {}, Vec3(0, 0.1, -1), Vec3(0.1, 0, 3));
+    ASSERT_EQ(scene.passage().count, 1);
+    for (const double z : {-0.5, -0.1, 0.1, 0.5}) {
+        scene.pose.X_GE[0].p.z() = z;
+        scene.solve();
+        EXPECT_EQ(scene.contact().passage.count, z < 0 ? 1 : 0) << z;
+        EXPECT_FALSE(scene.contact().hasLeftHole) << z;
+    }
+}
+
+std::string getRefusal(std::shared_ptr<const Surface> surface, const StartHint& hint) {
+    try {
+        PathProblem problem;
+        problem.addPoint("origin");
+        problem.addObstacle("ring", std::move(surface), hint);
+    } catch (const InvalidInput& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(StartHint, RefusesWhatItCannotFollow) {
+    const auto sphere = std::make_shared<Sphere>(1);
+    EXPECT_EQ(getRefusal(sphere, ThreadHole{1}), "path: obstacle 'ring', sphere(radius=1), has no hole to thread");
+    EXPECT_EQ(getRefusal(sphere, PassOnSide{Vec3::Zero()}),
+              "path: the side of obstacle 'ring' needs a finite direction that is not zero, got (0 0 0)");
+    EXPECT_EQ(getRefusal(sphere, PassNear{Vec3(0, kNaN, 0)}), "path: the hint of obstacle 'ring' is not finite");
+    EXPECT_EQ(getRefusal(sphere, WindAround{1e9}),
+              "path: the turns about obstacle 'ring' must be within 100, but are 1000000000");
+    EXPECT_EQ(getRefusal(sphere, WindAround{kNaN}),
+              "path: the turns about obstacle 'ring' must be within 100, but are nan");
+    EXPECT_EQ(getRefusal(std::make_shared<Torus>(1, 0.2), ThreadHole{-101}),
+              "path: the passages through obstacle 'ring' must be within 100, but are -101");
+}
+
+// Symptom (2026-11-24): from afar the foot of steepest descent on a thin ellipsoid lay on its far side, and a line that
+// passed clear of it was found below its surface.
+TEST(SegmentClearance, OfAThinEllipsoidFarAwayIsTheDistance) {
+    const Ellipsoid thin(Vec3(0.00903843, 0.0110219, 0.00363398));
+    const Vec3 A(2.5, 0.9, -1.7), B(-2.2, -1.4, -1.5);
+    LineClearance clearance;
+    findSegmentClearance(thin, Pose(), A, B, clearance);
+    const Vec3 e = (B - A).normalized();
+    const double toCentre = (A - e.dot(A) * e).norm();
+    EXPECT_GT(clearance.distance, toCentre - 0.0111);
+    EXPECT_LT(clearance.distance, toCentre - 0.0036);
+}
+
+}  // namespace
+}  // namespace tautline
