@@ -6,6 +6,7 @@
 #include <map>
 
 #include "support/scene_runner.h"
+#include "tautline/path_explanation.h"
 
 namespace {
 

@@ -1,6 +1,5 @@
 #include "tautline/models/path_clearance.h"
-
-#include "tautline/path_verification.h"
+#include "tautline/segment_clearance.h"
 
 namespace tautline::models {
 

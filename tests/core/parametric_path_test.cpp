@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "support/surface_cases.h"
+#include "tautline/path_explanation.h"
 #include "tautline/path_kinematics.h"
 #include "tautline/path_solver.h"
 #include "tautline/path_verification.h"

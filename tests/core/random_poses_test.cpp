@@ -12,6 +12,7 @@ and within a fixed count of shots, and what is no solution is explained. */
 
 #include "tautline/cylinder.h"
 #include "tautline/ellipsoid.h"
+#include "tautline/path_explanation.h"
 #include "tautline/path_kinematics.h"
 #include "tautline/path_solver.h"
 #include "tautline/path_verification.h"

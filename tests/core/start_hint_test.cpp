@@ -9,7 +9,7 @@
 #include "tautline/hole_passage.h"
 #include "tautline/parametric_torus.h"
 #include "tautline/path_solver.h"
-#include "tautline/path_verification.h"
+#include "tautline/segment_clearance.h"
 #include "tautline/sphere.h"
 #include "tautline/torus.h"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "tautline/contact_switch.h"
 #include "tautline/geodesic_events.h"
@@ -98,50 +97,6 @@ int findUnstableContact(const PathProblem& problem, const PathPose& pose, const 
     return -1;
 }
 
-/** The clearance of a line of which nothing is known yet: Newton from the segment's lowest point. */
-void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
-                        LineClearance& clearance) {
-    constexpr int kApproaches = 4;
-    Vec3 D = A_S + surface.findLowestPoint(A_S, e_S, length) * e_S, N;
-    const bool isOutside = surface.calcHeight(D, N) > 0;
-    clearance.C = surface.findSurfacePoint(D);
-    // From foot to foot: the lowest point of a line is far from the nearest one where a surface is thin.
-    for (int i = 0; i < kApproaches && isOutside; ++i) {
-        D = A_S + std::clamp(e_S.dot(clearance.C.p - A_S), 0.0, length) * e_S;
-        clearance.C = surface.findSurfacePoint(D);
-    }
-    clearance.N = surface.calcFrame(clearance.C, e_S).N;
-    surface.findLineClearance(A_S, e_S, clearance);
-    if (isOutside && !(clearance.distance > 0)) clearance.found = false;  // the far side of the surface
-}
-
-/** A line may come near a surface in several places, as inside a ring: the one that was watched so far gives way to a
-nearer one while both are clear. A few heights along the segment tell whether there is one. */
-void takeNearerClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
-                         LineClearance& clearance) {
-    constexpr int kSamples = 16;
-    bool isNearer = false;
-    Vec3 N;
-    for (int i = 0; i <= kSamples && !isNearer; ++i)
-        isNearer = surface.calcHeight(A_S + (length * i / kSamples) * e_S, N) < (1 - 1e-9) * clearance.distance;
-    if (!isNearer) return;
-    LineClearance nearer = clearance;
-    nearer.found = false;
-    findFreshClearance(surface, A_S, e_S, length, nearer);
-    if (nearer.found && nearer.lineCoordinate >= 0 && nearer.lineCoordinate <= length &&
-        nearer.distance < clearance.distance)
-        clearance = nearer;
-}
-
-/** The height of one point of the line as its clearance. */
-void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double s, LineClearance& clearance) {
-    const Vec3 D = A_S + s * e_S;
-    clearance.C = surface.findSurfacePoint(D);
-    clearance.distance = surface.calcHeight(D, clearance.N);
-    clearance.scale = 1 / surface.getSize();
-    clearance.lineCoordinate = s;
-}
-
 }  // namespace
 
 namespace {
@@ -194,120 +149,6 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
     if (unstable >= 0)
         return {Condition::Unstable, unstable, pose.X_GE[unstable] * path.contacts[unstable].geodesic.P.x};
     return {};
-}
-
-std::string describe(const PathVerification& verification, const PathProblem& problem) {
-    if (verification.isMinimum()) return "a local minimum";
-    const std::string name = "'" + problem.getElement(verification.element).name + "'";
-    switch (verification.condition) {
-        case Condition::ReversedTangent:
-            return "the path turns back at " + name;
-        case Condition::NegativeLength:
-            return "the arc on " + name + " has negative length";
-        case Condition::PullsOutward:
-            return "the arc on " + name + " would lift inside";
-        case Condition::ConjugatePoint:
-            return "the arc on " + name + " goes beyond its conjugate point";
-        case Condition::Penetration:
-            return "a straight segment passes below the surface of " + name;
-        case Condition::OutsideDomain:
-            return "the arc on " + name + " leaves the domain of its surface";
-        case Condition::Unstable:
-            return "the path can be shortened sideways at " + name;
-        case Condition::None:
-            break;
-    }
-    return "a local minimum";
-}
-
-namespace {
-
-std::string quoteName(const PathProblem& problem, int element) {
-    return "'" + problem.getElement(element).name + "'";
-}
-
-/** The fixed point that is inside an obstacle, by name. */
-std::string describeEndInside(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
-    Vec3 N_S;
-    for (int e = 0; e < problem.getNumElements(); ++e) {
-        if (problem.getElement(e).isPoint() || !pose.hasElement(e) || !path.contacts[e].isSwitchedOff) continue;
-        const Surface& surface = *problem.getElement(e).surface;
-        int before = e, after = e;
-        while (!problem.getElement(before).isPoint() || !pose.hasElement(before)) --before;
-        while (!problem.getElement(after).isPoint() || !pose.hasElement(after)) ++after;
-        const bool isBefore = surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[before].p), N_S) < 0;
-        return "the point " + quoteName(problem, isBefore ? before : after) + " is inside " + quoteName(problem, e) +
-               ", which is switched off";
-    }
-    return "a point is inside an obstacle";
-}
-
-/** The obstacle at an end of whose arc the surface hardly curves away from the path, or -1: there the string lifts,
-and a single contact does not follow it. */
-int findVanishingPressure(const PathProblem& problem, const PathSolution& path) {
-    constexpr double kVanishing = 0.05;  // of 1/size
-    for (int e = 0; e < problem.getNumElements(); ++e) {
-        const ObstacleContact& contact = path.contacts[e];
-        if (problem.getElement(e).isPoint() || !contact.isTouched) continue;
-        const double kappaN = std::max(contact.geodesic.P.kappaN, contact.geodesic.Q.kappaN);
-        if (kappaN * problem.getElement(e).surface->getSize() > -kVanishing) return e;
-    }
-    return -1;
-}
-
-std::string describe(const StringFault& fault, const PathProblem& problem) {
-    if (fault.kind == StringFault::Kind::Groove)
-        return "the string lies in the groove between " + quoteName(problem, fault.element) + " and " +
-               quoteName(problem, fault.other) + ", where no smooth path is";
-    return "the string touches " + quoteName(problem, fault.element) + " in two places";
-}
-
-}  // namespace
-
-std::string explainStatus(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
-    if (path.status == PathStatus::EndInside) return describeEndInside(problem, pose, path);
-    if (path.status == PathStatus::Solved) return "a local minimum";
-    std::string text;
-    if (path.status == PathStatus::NotConverged) {
-        std::ostringstream error;
-        error << "the path error stays at " << path.pathError;
-        text = error.str();
-    } else {
-        const PathVerification verification = verifyPath(problem, pose, path);
-        std::ostringstream place;
-        place << " at (" << verification.place_G.x() << ", " << verification.place_G.y() << ", "
-              << verification.place_G.z() << ")";
-        text = describe(verification, problem) + place.str();
-    }
-    const int vanishing = findVanishingPressure(problem, path);
-    if (path.fault.kind != StringFault::Kind::None)
-        text += ": " + describe(path.fault, problem);
-    else if (path.status == PathStatus::NotConverged && vanishing >= 0)
-        text += ": the pressure vanishes at an end of the arc on " + quoteName(problem, vanishing);
-    return text;
-}
-
-void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& A_G, const Vec3& B_G,
-                          LineClearance& clearance) {
-    const Vec3 A_S = X_GS.shiftBack(A_G), B_S = X_GS.shiftBack(B_G);
-    const double length = (B_S - A_S).norm();
-    const Vec3 e_S = length > 0 ? Vec3((B_S - A_S) / length) : Vec3(Vec3::UnitX());
-    LineClearance kept = clearance;
-    kept.found = false;
-    kept.C = clearance.keptC, kept.N = clearance.keptN;
-    if (kept.N.allFinite() && kept.C.p.allFinite()) surface.findLineClearance(A_S, e_S, kept);
-    if (!kept.found)
-        findFreshClearance(surface, A_S, e_S, length, kept);
-    else if (kept.distance > 0 && !surface.isConvex())
-        takeNearerClearance(surface, A_S, e_S, length, kept);
-    // Eqn. 6.3 puts D on the infinite line: past an end, the height of that end is what counts.
-    if (!kept.found)
-        takeHeight(surface, A_S, e_S, surface.findLowestPoint(A_S, e_S, length), kept);
-    else if (!(kept.lineCoordinate >= 0 && kept.lineCoordinate <= length))
-        takeHeight(surface, A_S, e_S, kept.lineCoordinate < 0 ? 0 : length, kept);
-    const bool isClear = kept.distance > 0 || !kept.keptN.allFinite();
-    if (isClear) kept.keptC = kept.C, kept.keptN = kept.N;
-    clearance = kept;
 }
 
 }  // namespace tautline

@@ -1,20 +1,10 @@
 #pragma once
 #include "tautline/elastic_string.h"
-#include "tautline/path_error.h"
+#include "tautline/path_newton.h"
 #include "tautline/path_problem.h"
 #include "tautline/path_solution.h"
 
 namespace tautline {
-
-struct PathSolverOptions {
-    double pathErrorTolerance = 1e-11;  ///< on max |eps|; what Newton leaves is its square
-    int maxIterations = 40;             ///< Newton iterations for one contact set
-    bool allowsColdStart = true;        ///< false: report NotConverged where the start given does not lead on
-    GeodesicOptions geodesics;
-
-    /** InvalidInput naming the option that is out of its range. */
-    void validate() const;
-};
 
 /** Finds shortest paths. Holds the workspace of a solve: one per thread; the answer never depends on what
 it solved before. No allocation once it has solved a path of the same size. */
@@ -37,7 +27,6 @@ public:
     void solveKeepingContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 private:
-    enum class Outcome { Converged, Failed };
     /** What says how often the path goes through the holes of its obstacles. */
     enum class PassageRule { AsBefore, AsHinted };
 
@@ -54,27 +43,14 @@ private:
                           const PathSolution& path) const;
     void updatePassages(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    Outcome iterateNewton(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    bool calcNewtonStep();
-    bool calcDampedStep(const PathProblem& problem, double damping);
-    void shortenBrokenArcs(const PathProblem& problem, const PathPose& pose);
-    bool tryStep(const PathProblem& problem, const PathPose& pose, double fraction, PathSolution& path);
-    bool tryNewtonStep(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    bool tryDampedSteps(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    double calcStepFraction(const PathProblem& problem) const;
-    void applyStep(const PathProblem& problem, double fraction);
     int findWorstContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) const;
     void switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     void updateClearances(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    void storeChain(PathSolution& path) const;
     void finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
 
     PathSolverOptions m_options;
     ElasticString m_string;
-    Chain m_chain, m_trial;
-    BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
-    BandedSolver m_normal{2 * kPathBandwidth, 2 * kPathBandwidth};  ///< J^T J + damping, only when Newton fails
-    std::vector<double> m_eps, m_trialEps, m_step;
+    PathNewton m_newton;
     std::vector<double> m_startLengths;  ///< of the arcs by element, while contacts are kept
     PathSolution m_previous;
     PathPose m_liftedPose;

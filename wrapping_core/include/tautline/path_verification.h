@@ -1,6 +1,4 @@
 #pragma once
-#include <string>
-
 #include "tautline/path_problem.h"
 #include "tautline/path_solution.h"
 
@@ -27,19 +25,5 @@ struct PathVerification {
 
 /** Checks the conditions of a local minimum on a solved path, contact set included. */
 PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path);
-
-/** A sentence for people, with the obstacle's name. */
-std::string describe(const PathVerification& verification, const PathProblem& problem);
-
-/** Why a path has the status that it has, in a sentence for people that names the elements concerned.
-@param path   as solve() left it at this pose */
-std::string explainStatus(const PathProblem& problem, const PathPose& pose, const PathSolution& path);
-
-/** Signed distance between the straight segment A B (ground) and a surface (thesis Cha. 6), on the side of
-`clearance.keptN` if that is set, else on the side that the segment suggests. Where the critical point D is
-not between the ends, the height of the nearer end counts.
-@param clearance   in: that of the last accepted state, or nothing; out: today's */
-void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& A_G, const Vec3& B_G,
-                          LineClearance& clearance);
 
 }  // namespace tautline

@@ -1,0 +1,101 @@
+#include "tautline/path_explanation.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace tautline {
+
+using Condition = PathVerification::Condition;
+
+std::string describe(const PathVerification& verification, const PathProblem& problem) {
+    if (verification.isMinimum()) return "a local minimum";
+    const std::string name = "'" + problem.getElement(verification.element).name + "'";
+    switch (verification.condition) {
+        case Condition::ReversedTangent:
+            return "the path turns back at " + name;
+        case Condition::NegativeLength:
+            return "the arc on " + name + " has negative length";
+        case Condition::PullsOutward:
+            return "the arc on " + name + " would lift inside";
+        case Condition::ConjugatePoint:
+            return "the arc on " + name + " goes beyond its conjugate point";
+        case Condition::Penetration:
+            return "a straight segment passes below the surface of " + name;
+        case Condition::OutsideDomain:
+            return "the arc on " + name + " leaves the domain of its surface";
+        case Condition::Unstable:
+            return "the path can be shortened sideways at " + name;
+        case Condition::None:
+            break;
+    }
+    return "a local minimum";
+}
+
+namespace {
+
+std::string quoteName(const PathProblem& problem, int element) {
+    return "'" + problem.getElement(element).name + "'";
+}
+
+/** The fixed point that is inside an obstacle, by name. */
+std::string describeEndInside(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    Vec3 N_S;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (problem.getElement(e).isPoint() || !pose.hasElement(e) || !path.contacts[e].isSwitchedOff) continue;
+        const Surface& surface = *problem.getElement(e).surface;
+        int before = e, after = e;
+        while (!problem.getElement(before).isPoint() || !pose.hasElement(before)) --before;
+        while (!problem.getElement(after).isPoint() || !pose.hasElement(after)) ++after;
+        const bool isBefore = surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[before].p), N_S) < 0;
+        return "the point " + quoteName(problem, isBefore ? before : after) + " is inside " + quoteName(problem, e) +
+               ", which is switched off";
+    }
+    return "a point is inside an obstacle";
+}
+
+/** The obstacle at an end of whose arc the surface hardly curves away from the path, or -1: there the string lifts,
+and a single contact does not follow it. */
+int findVanishingPressure(const PathProblem& problem, const PathSolution& path) {
+    constexpr double kVanishing = 0.05;  // of 1/size
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const ObstacleContact& contact = path.contacts[e];
+        if (problem.getElement(e).isPoint() || !contact.isTouched) continue;
+        const double kappaN = std::max(contact.geodesic.P.kappaN, contact.geodesic.Q.kappaN);
+        if (kappaN * problem.getElement(e).surface->getSize() > -kVanishing) return e;
+    }
+    return -1;
+}
+
+std::string describe(const StringFault& fault, const PathProblem& problem) {
+    if (fault.kind == StringFault::Kind::Groove)
+        return "the string lies in the groove between " + quoteName(problem, fault.element) + " and " +
+               quoteName(problem, fault.other) + ", where no smooth path is";
+    return "the string touches " + quoteName(problem, fault.element) + " in two places";
+}
+
+}  // namespace
+
+std::string explainStatus(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    if (path.status == PathStatus::EndInside) return describeEndInside(problem, pose, path);
+    if (path.status == PathStatus::Solved) return "a local minimum";
+    std::string text;
+    if (path.status == PathStatus::NotConverged) {
+        std::ostringstream error;
+        error << "the path error stays at " << path.pathError;
+        text = error.str();
+    } else {
+        const PathVerification verification = verifyPath(problem, pose, path);
+        std::ostringstream place;
+        place << " at (" << verification.place_G.x() << ", " << verification.place_G.y() << ", "
+              << verification.place_G.z() << ")";
+        text = describe(verification, problem) + place.str();
+    }
+    const int vanishing = findVanishingPressure(problem, path);
+    if (path.fault.kind != StringFault::Kind::None)
+        text += ": " + describe(path.fault, problem);
+    else if (path.status == PathStatus::NotConverged && vanishing >= 0)
+        text += ": the pressure vanishes at an end of the arc on " + quoteName(problem, vanishing);
+    return text;
+}
+
+}  // namespace tautline
