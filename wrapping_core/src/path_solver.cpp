@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nearer_clearance.h"
 #include "tautline/contact_switch.h"
 #include "tautline/error.h"
 #include "tautline/path_verification.h"
@@ -85,8 +86,8 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     bool isConverged = iterateNewton(problem, pose, path) == Outcome::Converged;
     for (int repair = 0; isConverged && turnCuspsRound(problem, pose, path); ++repair)
         isConverged = repair < kMaxCuspRepairs && iterateNewton(problem, pose, path) == Outcome::Converged;
-    m_startLengths.clear();
     updateClearances(problem, pose, path);
+    m_startLengths.clear();
     updatePassages(problem, pose, path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
 }
@@ -445,6 +446,7 @@ void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& 
 
 /** Clearances of all lifted obstacles on the segments that pass them. */
 void PathSolver::updateClearances(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    const bool keepsContacts = !m_startLengths.empty();
     int segment = 0;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const PathElement& element = problem.getElement(e);
@@ -456,6 +458,7 @@ void PathSolver::updateClearances(const PathProblem& problem, const PathPose& po
         const StraightSegment& line = path.segments[segment];
         contact.segment = segment;
         findSegmentClearance(surface, pose.X_GE[e], line.A, line.B, contact.clearance);
+        if (keepsContacts) takeNearerClearance(surface, pose.X_GE[e], line.A, line.B, contact.clearance);
     }
 }
 
