@@ -62,6 +62,7 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
         isConverged = repair < kMaxCuspRepairs && m_newton.iterate(problem, pose, path);
     m_startLengths.clear();
     updateClearances(problem, pose, path);
+    watchNearestPlaces(problem, pose, path);
     updatePassages(problem, pose, path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
 }
@@ -258,7 +259,11 @@ bool PathSolver::iterateContactSet(const PathProblem& problem, const PathPose& p
         const bool isConverged = m_newton.iterate(problem, pose, path);
         updateClearances(problem, pose, path);
         if (!isConverged) return false;
-        const int worst = findWorstContact(problem, pose, path);
+        int worst = findWorstContact(problem, pose, path);
+        if (worst < 0) {
+            watchNearestPlaces(problem, pose, path);
+            worst = findWorstContact(problem, pose, path);
+        }
         if (worst < 0) return true;
         if (change < maxChanges) switchContact(problem, pose, worst, path);
     }
@@ -296,6 +301,15 @@ void PathSolver::updateClearances(const PathProblem& problem, const PathPose& po
         const StraightSegment& line = path.segments[segment];
         contact.segment = segment;
         findSegmentClearance(surface, pose.X_GE[e], line.A, line.B, contact.clearance);
+    }
+}
+
+/** Looks for places where lifted obstacles are nearer to their segments than where they were watched so far. */
+void PathSolver::watchNearestPlaces(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (problem.getElement(e).isPoint() || !pose.hasElement(e) || path.contacts[e].isTouched) continue;
+        const StraightSegment& line = path.segments[path.contacts[e].segment];
+        takeNearerClearance(*problem.getElement(e).surface, pose.X_GE[e], line.A, line.B, path.contacts[e].clearance);
     }
 }
 

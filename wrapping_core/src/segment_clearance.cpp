@@ -22,24 +22,6 @@ void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S
     if (isOutside && !(clearance.distance > 0)) clearance.found = false;  // the far side of the surface
 }
 
-/** A line may come near a surface in several places, as inside a ring: the one that was watched so far gives way to a
-nearer one while both are clear. A few heights along the segment tell whether there is one. */
-void takeNearerClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
-                         LineClearance& clearance) {
-    constexpr int kSamples = 16;
-    bool isNearer = false;
-    Vec3 N;
-    for (int i = 0; i <= kSamples && !isNearer; ++i)
-        isNearer = surface.calcHeight(A_S + (length * i / kSamples) * e_S, N) < (1 - 1e-9) * clearance.distance;
-    if (!isNearer) return;
-    LineClearance nearer = clearance;
-    nearer.found = false;
-    findFreshClearance(surface, A_S, e_S, length, nearer);
-    if (nearer.found && nearer.lineCoordinate >= 0 && nearer.lineCoordinate <= length &&
-        nearer.distance < clearance.distance)
-        clearance = nearer;
-}
-
 /** The height of one point of the line as its clearance. */
 void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double s, LineClearance& clearance) {
     const Vec3 D = A_S + s * e_S;
@@ -60,10 +42,7 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
     kept.found = false;
     kept.C = clearance.keptC, kept.N = clearance.keptN;
     if (kept.N.allFinite() && kept.C.p.allFinite()) surface.findLineClearance(A_S, e_S, kept);
-    if (!kept.found)
-        findFreshClearance(surface, A_S, e_S, length, kept);
-    else if (kept.distance > 0 && !surface.isConvex())
-        takeNearerClearance(surface, A_S, e_S, length, kept);
+    if (!kept.found) findFreshClearance(surface, A_S, e_S, length, kept);
     // Eqn. 6.3 puts D on the infinite line: past an end, the height of that end is what counts.
     if (!kept.found)
         takeHeight(surface, A_S, e_S, surface.findLowestPoint(A_S, e_S, length), kept);
@@ -72,6 +51,29 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
     const bool isClear = kept.distance > 0 || !kept.keptN.allFinite();
     if (isClear) kept.keptC = kept.C, kept.keptN = kept.N;
     clearance = kept;
+}
+
+void takeNearerClearance(const Surface& surface, const Pose& X_GS, const Vec3& A_G, const Vec3& B_G,
+                         LineClearance& clearance) {
+    if (!(clearance.distance > 0) || surface.isConvex()) return;
+    const Vec3 A_S = X_GS.shiftBack(A_G), B_S = X_GS.shiftBack(B_G);
+    const double length = (B_S - A_S).norm();
+    if (!(length > 0)) return;
+    const Vec3 e_S = (B_S - A_S) / length;
+    // A few heights along the segment tell whether there is one.
+    constexpr int kSamples = 16;
+    bool isNearer = false;
+    Vec3 N;
+    for (int i = 0; i <= kSamples && !isNearer; ++i)
+        isNearer = surface.calcHeight(A_S + (length * i / kSamples) * e_S, N) < (1 - 1e-9) * clearance.distance;
+    if (!isNearer) return;
+    LineClearance nearer = clearance;
+    nearer.found = false;
+    findFreshClearance(surface, A_S, e_S, length, nearer);
+    const bool isOnSegment = nearer.lineCoordinate >= 0 && nearer.lineCoordinate <= length;
+    if (!nearer.found || !isOnSegment || !(nearer.distance < clearance.distance)) return;
+    if (nearer.distance > 0) nearer.keptC = nearer.C, nearer.keptN = nearer.N;
+    clearance = nearer;
 }
 
 }  // namespace tautline

@@ -44,6 +44,7 @@ private:
     void updatePassages(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     int findWorstContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) const;
+    void watchNearestPlaces(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     void switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     void updateClearances(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     void finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
