@@ -143,15 +143,13 @@ struct ParametricMaker {
     }
 };
 
-std::optional<SimTK::Vec3> makeHint(const WrapObject& object, const PathWrap& wrap, const Surface& surface,
-                                    const SegmentInObject& segment) {
-    if (wrap.hint) return toVec3(*wrap.hint);
-    if (wrap.start) return toVec3(wrap.start->point);
+/** What the file says of where the path runs: a point, a start, or the side that the quadrant asks for. */
+StartHint makeHint(const WrapObject& object, const PathWrap& wrap) {
+    if (wrap.hint) return PassNear{toEigen(toVec3(*wrap.hint))};
+    if (wrap.start) return PassNear{toEigen(toVec3(wrap.start->point))};
     const Vec3 side = getActiveSide(object.quadrant);
-    if (side.isZero()) return std::nullopt;
-    Vec3 beside = 10 * surface.getSize() * side;
-    if (std::holds_alternative<CylinderShape>(object.shape)) beside.z() = (segment.A + segment.lowest * segment.e).z();
-    return toSimTK(surface.findSurfacePoint(beside).p);
+    if (side.isZero()) return {};
+    return PassOnSide{side};
 }
 
 }  // namespace
@@ -200,7 +198,7 @@ std::vector<BoundWrap> bindWraps(const ModelDescription& description, const Musc
         const SegmentInObject& segment = atDefault[wrap.segment];
         wrap.numEngaged = engaged[wrap.segment], wrap.numElsewhere = total - wrap.numEngaged;
         wrap.place = segment.length > 0 ? std::clamp(-segment.A.dot(segment.e) / segment.length, 0.0, 1.0) : 0.0;
-        wrap.hint_W = makeHint(object, path.wraps[w], *surface, segment);
+        wrap.hint_W = makeHint(object, path.wraps[w]);
         bound.push_back(wrap);
     }
     const bool isListed = path.areWrapsInOrder;

@@ -51,14 +51,28 @@ public:
     }
 
     void recordEvent(std::size_t path, const ContactEvent& event) {
-        const bool isMade = event.kind == ContactEvent::Kind::Made;
-        (isMade ? m_result.summaries[path].contactsMade : m_result.summaries[path].contactsLost) += 1;
+        using Kind = ContactEvent::Kind;
+        if (event.kind == Kind::Made) ++m_result.summaries[path].contactsMade;
+        if (event.kind == Kind::Lost) ++m_result.summaries[path].contactsLost;
         m_result.events += toText(event.time) + "," + m_paths[path].path + "," +
-                           m_paths[path].cable.getElementName(event.obstacle) + "," +
-                           (isMade ? "touchdown" : "liftoff") + "\n";
+                           m_paths[path].cable.getElementName(event.obstacle) + "," + describeKind(event.kind) + "\n";
     }
 
 private:
+    static const char* describeKind(ContactEvent::Kind kind) {
+        switch (kind) {
+            case ContactEvent::Kind::Made:
+                return "touchdown";
+            case ContactEvent::Kind::Lost:
+                return "liftoff";
+            case ContactEvent::Kind::Split:
+                return "split";
+            case ContactEvent::Kind::LeftHole:
+                return "left_hole";
+        }
+        return "";
+    }
+
     static std::string describeFault(const Cable& cable, const PathVerification& verification) {
         return "not a minimum at obstacle '" + cable.getElementName(CableElementIndex(verification.element)) + "'";
     }

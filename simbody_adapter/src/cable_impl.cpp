@@ -9,6 +9,7 @@
 #include "tautline/error.h"
 #include "tautline/path_kinematics.h"
 #include "tautline/simbody/conversions.h"
+#include "tautline/single_contact.h"
 
 namespace tautline {
 
@@ -52,6 +53,8 @@ CableElementIndex CableImpl::insertElement(CableElement element) {
     m_elements.insert(m_elements.end() - 1, std::move(element));
     m_cables.invalidateSubsystemTopologyCache();
     if (isObstacle) m_cables.updSystem().addEventHandler(new ContactEventHandler(*this, index));
+    if (isObstacle && !m_elements[index].surface->isConvex())
+        m_cables.updSystem().addEventHandler(new SplitEventHandler(*this, index));
     if (isConditional) m_cables.updSystem().addEventHandler(new ConditionEventHandler(*this, index));
     return index;
 }
@@ -155,6 +158,19 @@ Real CableImpl::calcWitness(const State& state, CableElementIndex obstacle) cons
     const PathSolution& path = getPath(state, "Cable::getWitness()");
     if (!m_state.getMode(state).keepsContacts) return 1;
     return calcContactWitness(m_problem, path, obstacle);
+}
+
+Real CableImpl::calcSplitWitness(const State& state, CableElementIndex obstacle) const {
+    const PathSolution& path = getPath(state, "Cable::calcSplitWitness()");
+    if (!m_state.getMode(state).keepsContacts) return 1;
+    return calcSingleContactWitness(m_problem, getPose(state), path, obstacle);
+}
+
+void CableImpl::reportSplit(const State& state, CableElementIndex obstacle) const {
+    if (isDisabled(state) || !m_listener) return;
+    m_cables.getSystem().realize(state, Stage::Velocity);
+    const Real length = getPath(state, "SplitEventHandler::handleEvent()").length, rate = getLengthRate(state);
+    m_listener({state.getTime(), m_index, obstacle, ContactEvent::Kind::Split, length, length, rate, rate});
 }
 
 const std::vector<SpatialForce>& CableImpl::calcElementForces(const State& state, const char* method) const {

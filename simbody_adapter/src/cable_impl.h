@@ -58,6 +58,8 @@ public:
     const PathProblem& getProblem() const { return m_problem; }
     SimTK::Real getLengthRate(const SimTK::State& state) const;
     SimTK::Real calcWitness(const SimTK::State& state, CableElementIndex obstacle) const;
+    SimTK::Real calcSplitWitness(const SimTK::State& state, CableElementIndex obstacle) const;
+    void reportSplit(const SimTK::State& state, CableElementIndex obstacle) const;
     /** About element origins, in ground; valid until the next call with this state. */
     const std::vector<SpatialForce>& calcElementForces(const SimTK::State& state, const char* method) const;
     void addBodyForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,

@@ -24,6 +24,19 @@ void ContactEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) c
     m_cable.handleContactEvent(state);
 }
 
+SplitEventHandler::SplitEventHandler(const CableImpl& cable, CableElementIndex obstacle)
+    : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_obstacle(obstacle) {
+    getTriggerInfo().setTriggerOnRisingSignTransition(false).setRequiredLocalizationTimeWindow(kLocalizationWindow);
+}
+
+SimTK::Real SplitEventHandler::getValue(const SimTK::State& state) const {
+    return m_cable.isDisabled(state) ? 1 : m_cable.calcSplitWitness(state, m_obstacle);
+}
+
+void SplitEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {
+    m_cable.reportSplit(state, m_obstacle);
+}
+
 ConditionEventHandler::ConditionEventHandler(const CableImpl& cable, CableElementIndex point)
     : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_point(point) {
     getTriggerInfo().setRequiredLocalizationTimeWindow(kLocalizationWindow);

@@ -19,6 +19,19 @@ private:
     CableElementIndex m_obstacle;
 };
 
+/** Watches whether one arc still describes how a surface that is not convex holds the cable, and reports where it no
+longer does. */
+class SplitEventHandler : public SimTK::TriggeredEventHandler {
+public:
+    SplitEventHandler(const CableImpl& cable, CableElementIndex obstacle);
+    SimTK::Real getValue(const SimTK::State& state) const override;
+    void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
+
+private:
+    const CableImpl& m_cable;
+    CableElementIndex m_obstacle;
+};
+
 /** Stops a step where the condition of a point changes, since the length jumps there, and lets the contacts that
 this changes settle. */
 class ConditionEventHandler : public SimTK::TriggeredEventHandler {

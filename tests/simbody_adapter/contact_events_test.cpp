@@ -257,5 +257,35 @@ TEST(ContactEvents, TwoObstaclesTouchedAtOneInstantAreBothFound) {
     EXPECT_EQ(lost, 4);
 }
 
+// The string rests on the far tube of a lying ring; its other end goes down until it meets the near
+// tube too. In the plane both tubes are circles of radius 0.2 about (-1, 0) and (1, 0): their common tangent is z =
+// 0.2.
+TEST(ContactEvents, ASecondContactOnARingIsReportedWhenItBegins) {
+    BareScene scene;
+    const SimTK::Rotation upward(-SimTK::Pi / 2, SimTK::YAxis);  // a slider goes along x
+    MobilizedBody::Slider end(scene.matter.Ground(), Transform(upward, SimTK::Vec3(-3, 0, 0)), makeBody(),
+                              Transform(upward));
+    constexpr Real amplitude = 0.4, frequency = 1.5, mean = 0.3;
+    SimTK::Motion::Sinusoid(end, SimTK::Motion::Position, amplitude, frequency, SimTK::Pi / 2);
+    Cable cable(scene.cables, end, SimTK::Vec3(0, 0, mean), scene.matter.Ground(), SimTK::Vec3(2, 0, -0.6));
+    const CableElementIndex ring =
+        cable.addObstacle(scene.matter.Ground(), Transform(), std::make_shared<Torus>(1, 0.2), SimTK::Vec3(1, 0, 0.2));
+    std::vector<ContactEvent> events;
+    cable.setContactListener([&](const ContactEvent& event) { events.push_back(event); });
+    const State initial = scene.system.realizeTopology();
+    SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+    integrator.setAccuracy(1e-6);
+    integrator.setMaximumStepSize(0.05);
+    SimTK::TimeStepper stepper(scene.system, integrator);
+    stepper.initialize(initial);
+    stepper.stepTo(2);
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].kind, Kind::Split);
+    EXPECT_EQ(events[0].obstacle, ring);
+    EXPECT_EQ(events[0].lengthBefore, events[0].lengthAfter);
+    // 0.3 + 0.4 cos(1.5 t) = 0.2
+    EXPECT_NEAR(events[0].time, std::acos((0.2 - mean) / amplitude) / frequency, 1e-8);
+}
+
 }  // namespace
 }  // namespace tautline::testing

@@ -261,6 +261,13 @@ bool ElasticString::restsOn(const PathProblem& problem, const Hold& hold, int no
 }
 
 StringFault ElasticString::findFault(const PathProblem& problem) const {
+    const Hold* before = nullptr;
+    for (const Hold& hold : m_holds) {
+        if (!hold.touches()) continue;
+        if (before && hold.first < before->last)
+            return {StringFault::Kind::OutOfOrder, before->element, hold.element};
+        before = &hold;
+    }
     for (const Hold& hold : m_holds) {
         if (!hold.touches()) continue;
         for (const Hold& other : m_holds)

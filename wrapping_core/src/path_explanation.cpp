@@ -70,6 +70,9 @@ std::string describe(const StringFault& fault, const PathProblem& problem) {
     if (fault.kind == StringFault::Kind::Groove)
         return "the string lies in the groove between " + quoteName(problem, fault.element) + " and " +
                quoteName(problem, fault.other) + ", where no smooth path is";
+    if (fault.kind == StringFault::Kind::OutOfOrder)
+        return "the string would meet " + quoteName(problem, fault.other) + " before " +
+               quoteName(problem, fault.element) + ", against the order of the path";
     return "the string touches " + quoteName(problem, fault.element) + " in two places";
 }
 

@@ -44,10 +44,11 @@ struct StringFault {
         None,
         Groove,       ///< it lies in the groove where two surfaces meet: a kink
         TwoContacts,  ///< it touches one surface, leaves it, and touches it again
+        OutOfOrder,   ///< it meets two obstacles against the order of the path: it would have to cross itself
     };
     Kind kind = Kind::None;
     int element = -1;  ///< the obstacle concerned
-    int other = -1;    ///< the second surface of a groove
+    int other = -1;    ///< the second one of a groove, or the one that is met too early
 };
 
 /** A path: always finite and drawable, whatever the status. `contacts` has one entry per element of the

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "tautline/models/model_builder.h"
+#include "tautline/start_hint.h"
 #include "tautline/surface.h"
 
 namespace tautline::models {
@@ -20,9 +21,8 @@ struct BoundWrap {
     SurfaceForm form = SurfaceForm::Implicit;
     /** Where the object stands along the segment in the default pose, 0 to 1: the order of several. */
     double place = 0.0;
-    /** The hint or start that the file gives, else a surface point on the side that the quadrant asks for, in
-    the object's frame; none for all. */
-    std::optional<SimTK::Vec3> hint_W;
+    /** A point that the file gives, or the side that the quadrant asks for, in the object's frame; nothing for all. */
+    StartHint hint_W;
     /** In how many of the sampled poses the path wraps here, and on any other segment. */
     int numEngaged = 0, numElsewhere = 0;
 };

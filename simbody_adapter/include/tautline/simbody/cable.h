@@ -21,10 +21,12 @@ class CableImpl;
 which they were added, last the insertion. */
 SimTK_DEFINE_UNIQUE_INDEX_TYPE(CableElementIndex);
 
-/** A contact that was made (touchdown) or lost (lift-off) in a time-stepping study, or a ring (an obstacle with a
-hole) that a cable has left though it was threaded through it: the step was too long to see what held it. */
+/** A contact that was made (touchdown) or lost (lift-off) in a time-stepping study; a contact that is one arc no longer
+(Split: its pressure turns inside, or a segment beside it meets the same surface again), which stays as it is and makes
+the path NotMinimum; or a ring (an obstacle with a hole) that a cable has left though it was threaded through it: the
+step was too long to see what held it. */
 struct ContactEvent {
-    enum class Kind { Made, Lost, LeftHole };
+    enum class Kind { Made, Lost, Split, LeftHole };
     SimTK::Real time;  ///< [s]
     CableIndex cable;
     CableElementIndex obstacle;
