@@ -44,9 +44,8 @@ public:
             const PathStatus status = cable.calcStatus(state);
             if (status == PathStatus::Solved || summary.degradedSteps++ > 0) continue;
             summary.firstDegradation = "at " + std::to_string(state.getTime()) + " s: ";
-            summary.firstDegradation += status == PathStatus::NotMinimum
-                                            ? describeFault(cable, cable.calcVerification(state))
-                                            : getName(status);
+            summary.firstDegradation +=
+                status == PathStatus::NotMinimum ? describeFault(cable, state) : getName(status);
         }
     }
 
@@ -73,8 +72,13 @@ private:
         return "";
     }
 
-    static std::string describeFault(const Cable& cable, const PathVerification& verification) {
-        return "not a minimum at obstacle '" + cable.getElementName(CableElementIndex(verification.element)) + "'";
+    static std::string describeFault(const Cable& cable, const State& state) {
+        for (CableElementIndex e(0); e < cable.getNumElements(); ++e)
+            if (cable.getSolution(state).contacts[e].hasLeftHole)
+                return "left the hole of '" + cable.getElementName(e) + "'";
+        const int element = cable.calcVerification(state).element;
+        return element < 0 ? "not a minimum"
+                           : "not a minimum at obstacle '" + cable.getElementName(CableElementIndex(element)) + "'";
     }
 
     /** Calls a function with the element index of each obstacle and whether its surface is parametric. */

@@ -40,13 +40,14 @@ CableForceImpl::CableForceImpl(const SimTK::GeneralForceSubsystem& forces, std::
 
 Real CableForceImpl::calcTension(const State& state) const {
     if (m_law->getCable().isDisabled(state)) return 0;
-    return std::max(Real(0), m_law->calcTension(state));
+    const Real tension = m_law->calcTension(state);
+    return tension < 0 ? 0 : tension;  // a law that gives NaN is to be seen, not to go slack
 }
 
 void CableForceImpl::calcForce(const State& state, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,
                                SimTK::Vector_<SimTK::Vec3>&, SimTK::Vector& mobilityForces) const {
     const Real tension = calcTension(state);
-    if (!(tension > 0)) return;
+    if (tension == 0) return;
     m_law->getCable().applyBodyForces(state, tension, bodyForces);
     m_law->getCable().applyMobilityForces(state, tension, mobilityForces);
 }

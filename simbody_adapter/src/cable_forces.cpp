@@ -155,6 +155,7 @@ Real ElasticStringForce::getStretch(const State& state) const {
 }
 
 Real ElasticStringForce::getPowerDissipation(const State& state) const {
+    if (isDisabled(state) || getCable().isDisabled(state)) return 0;
     const Real rate = getCable().getLengthRate(state);
     // What the tension does beyond the elastic part, so that the cut at zero is accounted for.
     return (getTension(state) - getStiffness() * getStretch(state)) * rate;

@@ -26,6 +26,11 @@ bool isFinite(const PathPose& pose) {
     return true;
 }
 
+bool hasLeftAnyHole(const PathSolution& path) {
+    return std::any_of(path.contacts.begin(), path.contacts.end(),
+                       [](const ObstacleContact& contact) { return contact.hasLeftHole; });
+}
+
 /** The answer for a pose that is not finite: nothing to draw, nothing that pulls. */
 void makeEmptyPath(int numElements, PathSolution& path) {
     path = PathSolution();
@@ -249,15 +254,16 @@ void CableImpl::solve(const PathSolution& start, bool keepsContacts, CableWorksp
     m_counters.shots += path.shots;
 }
 
-/** Where the start does not lead on, a start anew may, but it counts only if it comes to the same
-contacts. */
+/** Where the start does not lead on, a search along its course may, but it counts only if it comes to the same
+contacts and through the same holes. */
 void CableImpl::solveKept(const PathSolution& start, CableWorkspace& workspace, PathSolution& path) const {
     path = start;
     workspace.solver.solveKeepingContacts(m_problem, workspace.pose, path);
     if (path.status != PathStatus::NotConverged || !m_options.allowsColdStart) return;
-    PathSolution fresh;
+    PathSolution fresh = start;
     workspace.solver.solve(m_problem, workspace.pose, fresh);
-    if (fresh.status != PathStatus::NotConverged && haveSameContacts(fresh, path)) path = fresh;
+    if (fresh.status != PathStatus::NotConverged && haveSameContacts(fresh, path) && !hasLeftAnyHole(fresh))
+        path = fresh;
 }
 
 PathSolution CableImpl::calcSettledPath(const State& state) const {
@@ -292,19 +298,11 @@ void CableImpl::handleContactEvent(State& state) const {
     for (int e = 0; e < getNumElements(); ++e) after.contacts[e].passage = start.contacts[e].passage;
     const bool hasChanged = settleContacts(workspace.solver, m_problem, workspace.pose, after);
     // Another obstacle's handler may have settled this one's contact already.
-    if (!hasChanged && !hasLeftAnyHole(start, before)) return;
+    if (!hasChanged && !hasLeftAnyHole(before)) return;
     if (!hasChanged) after = before;
     calcVelocities(state, workspace.velocities);
     m_state.setStart(state, after);
     report(state, start, before, after);
-}
-
-bool CableImpl::hasLeftAnyHole(const PathSolution& start, const PathSolution& path) const {
-    for (int e = 0; e < getNumElements(); ++e)
-        if (m_elements[e].surface &&
-            hasLeftHole(*m_elements[e].surface, start.contacts[e].passage, path.contacts[e].passage))
-            return true;
-    return false;
 }
 
 /** @param state   whose pose and velocities are in its workspace */
@@ -320,7 +318,7 @@ void CableImpl::report(const State& state, const PathSolution& start, const Path
     };
     for (CableElementIndex e(0); e < getNumElements(); ++e) {
         if (!m_elements[e].surface) continue;
-        if (hasLeftHole(*m_elements[e].surface, start.contacts[e].passage, after.contacts[e].passage)) {
+        if (after.contacts[e].hasLeftHole && !start.contacts[e].hasLeftHole) {
             ++m_counters.holesLeft;
             tell(e, Kind::LeftHole);
         }
@@ -338,9 +336,10 @@ PathStatus CableImpl::calcStatus(const State& state) const {
     for (const ObstacleContact& contact : path.contacts)
         if (contact.hasLeftHole) return PathStatus::NotMinimum;
     using Condition = PathVerification::Condition;
-    switch (verifyPath(m_problem, getPose(state), path).condition) {
+    // Between events an arc may be just below zero: the event finder watches it.
+    constexpr Real kBetweenEvents = -1e-6;
+    switch (verifyPath(m_problem, getPose(state), path, kBetweenEvents).condition) {
         case Condition::None:
-        case Condition::NegativeLength:
             return PathStatus::Solved;
         case Condition::OutsideDomain:
             return PathStatus::LeftDomain;

@@ -37,7 +37,6 @@ public:
     const std::string& getName() const { return m_name; }
     CableIndex getIndex() const { return m_index; }
     const CableSubsystemImpl& getSubsystemImpl() const { return m_cables; }
-    CableSubsystemImpl& updSubsystemImpl() { return m_cables; }
     const PathSolverOptions& getOptions() const { return m_options; }
     bool isDisabledByDefault() const { return m_defaultMode.isDisabled; }
     int getNumElements() const { return static_cast<int>(m_elements.size()); }
@@ -87,7 +86,6 @@ private:
     void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
     void solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace, PathSolution& path) const;
     void solveKept(const PathSolution& start, CableWorkspace& workspace, PathSolution& path) const;
-    bool hasLeftAnyHole(const PathSolution& start, const PathSolution& path) const;
     void report(const SimTK::State& state, const PathSolution& start, const PathSolution& before,
                 const PathSolution& after) const;
 

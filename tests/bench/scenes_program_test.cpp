@@ -139,6 +139,7 @@ TEST(DataScenesProgram, WritesEveryFieldOfEverySceneAndStep) {
             for (const json& event : scene.at("events"))
                 EXPECT_TRUE(event.contains("time") && event.contains("obstacle") && event.contains("kind"));
         }
+    EXPECT_GT(expected, 0u);
     EXPECT_EQ(expected, outcome.results.at("scenes").size());
 }
 
@@ -159,6 +160,7 @@ TEST(DataScenesProgram, FindsShortPathsWithoutHints) {
         noLonger += lengths.at(scene.at("id")) <= scene.at("truth").at("length").get<double>() * (1 + 1e-9);
     }
     std::cout << noLonger << " of " << judged << " easy and medium scenes are no longer than their listed answers\n";
+    EXPECT_GT(judged, 0);
     EXPECT_GE(100 * noLonger, 95 * judged);
 }
 

@@ -115,8 +115,8 @@ std::string classify(const PathProblem& problem, const PathPose& pose, const Pat
     std::string key = getName(path.status);
     const auto has = [&why](const char* words) { return why.find(words) != std::string::npos; };
     if (path.status == PathStatus::Solved) return key;
-    for (const char* reason :
-         {"is inside", "in the groove", "in two places", "against the order", "would lift inside", "pressure vanishes"})
+    for (const char* reason : {"is inside", "in the groove", "in two places", "against the order", "still slides",
+                               "would lift inside", "pressure vanishes"})
         if (has(reason)) return key + ", " + reason;
     return key + ", unexplained: " + why;
 }

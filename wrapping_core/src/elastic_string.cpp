@@ -88,6 +88,7 @@ void ElasticString::relax(const PathProblem& problem, const PathPose&, double fi
                           int maxSweeps) {
     if (!(m_extent > 0)) return;
     double relaxation = 1;
+    m_isAtRest = false;
     for (int i = 0; i < maxSweeps; ++i) {
         updatePortions(problem);
         if (i % kSweepsPerMesh == 0) {
@@ -98,7 +99,8 @@ void ElasticString::relax(const PathProblem& problem, const PathPose&, double fi
         ++m_numSweeps;
         // Plain steps first, while the string falls into place; then over-relaxation for the long waves.
         if (i > 2 * kSweepsPerMesh) relaxation = std::min(kMaxRelaxation, relaxation + 0.05);
-        if (i > kSweepsPerMesh && move < tolerance) break;
+        m_isAtRest = i > kSweepsPerMesh && move < tolerance;
+        if (m_isAtRest) break;
     }
     updatePortions(problem);
 }
@@ -264,8 +266,7 @@ StringFault ElasticString::findFault(const PathProblem& problem) const {
     const Hold* before = nullptr;
     for (const Hold& hold : m_holds) {
         if (!hold.touches()) continue;
-        if (before && hold.first < before->last)
-            return {StringFault::Kind::OutOfOrder, before->element, hold.element};
+        if (before && hold.first < before->last) return {StringFault::Kind::OutOfOrder, before->element, hold.element};
         before = &hold;
     }
     for (const Hold& hold : m_holds) {
@@ -277,6 +278,8 @@ StringFault ElasticString::findFault(const PathProblem& problem) const {
     }
     for (const Hold& hold : m_holds)
         if (leavesAndReturns(problem, hold)) return {StringFault::Kind::TwoContacts, hold.element, -1};
+    for (const Hold& hold : m_holds)
+        if (!m_isAtRest && hold.touches()) return {StringFault::Kind::Sliding, hold.element, -1};
     return {};
 }
 

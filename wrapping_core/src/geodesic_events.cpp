@@ -188,4 +188,19 @@ std::optional<GeodesicPlace> findDomainExit(const Surface& surface, const Geodes
     return place;
 }
 
+double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const Geodesic& geodesic) {
+    constexpr GeodesicOptions kWalking{1e-6, 200};
+    double largest = std::max({geodesic.P.kappaN, geodesic.Q.kappaN, geodesic.maxKappaN});
+    const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * std::abs(start.length) / surface.getSize()));
+    GeodesicStart from = start;
+    from.length /= pieces;
+    Geodesic piece;
+    for (int i = 1; i < pieces; ++i) {
+        surface.shootGeodesic(from, kWalking, piece);
+        largest = std::max(largest, piece.Q.kappaN);
+        from.point = piece.endPoint, from.tangent = piece.Q.t;
+    }
+    return largest;
+}
+
 }  // namespace tautline

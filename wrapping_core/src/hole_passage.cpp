@@ -28,11 +28,16 @@ private:
 
 /** The chord of a short arc passes the hole where the arc does; a long one is followed. */
 void followArc(const Surface& surface, const ObstacleContact& contact, PassageCounter& counter) {
-    if (contact.start.length > surface.getSize()) {
-        std::vector<Vec3> points;
-        const int count = 2 + static_cast<int>(std::min(1000.0, 2 * contact.start.length / surface.getSize()));
-        sampleGeodesic(surface, contact.start, GeodesicOptions{1e-4, 500}, count, points);
-        for (const Vec3& p : points) counter.goTo(p);
+    const double size = surface.getSize();
+    const int pieces =
+        contact.start.length > size ? 1 + static_cast<int>(std::min(1000.0, 2 * contact.start.length / size)) : 1;
+    GeodesicStart from = contact.start;
+    from.length /= pieces;
+    Geodesic piece;
+    for (int i = 1; i < pieces; ++i) {
+        surface.shootGeodesic(from, GeodesicOptions{1e-4, 200}, piece);
+        counter.goTo(piece.Q.x);
+        from.point = piece.endPoint, from.tangent = piece.Q.t;
     }
     counter.goTo(contact.geodesic.Q.x);
 }

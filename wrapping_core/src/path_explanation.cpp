@@ -7,9 +7,17 @@ namespace tautline {
 
 using Condition = PathVerification::Condition;
 
+namespace {
+
+std::string quoteName(const PathProblem& problem, int element) {
+    return "'" + problem.getElement(element).name + "'";
+}
+
+}  // namespace
+
 std::string describe(const PathVerification& verification, const PathProblem& problem) {
     if (verification.isMinimum()) return "a local minimum";
-    const std::string name = "'" + problem.getElement(verification.element).name + "'";
+    const std::string name = quoteName(problem, verification.element);
     switch (verification.condition) {
         case Condition::ReversedTangent:
             return "the path turns back at " + name;
@@ -33,10 +41,6 @@ std::string describe(const PathVerification& verification, const PathProblem& pr
 
 namespace {
 
-std::string quoteName(const PathProblem& problem, int element) {
-    return "'" + problem.getElement(element).name + "'";
-}
-
 /** The fixed point that is inside an obstacle, by name. */
 std::string describeEndInside(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     Vec3 N_S;
@@ -46,7 +50,10 @@ std::string describeEndInside(const PathProblem& problem, const PathPose& pose, 
         int before = e, after = e;
         while (!problem.getElement(before).isPoint() || !pose.hasElement(before)) --before;
         while (!problem.getElement(after).isPoint() || !pose.hasElement(after)) ++after;
-        const bool isBefore = surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[before].p), N_S) < 0;
+        const auto calcHeight = [&](int point) {
+            return surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
+        };
+        const bool isBefore = calcHeight(before) <= calcHeight(after);
         return "the point " + quoteName(problem, isBefore ? before : after) + " is inside " + quoteName(problem, e) +
                ", which is switched off";
     }
@@ -70,6 +77,8 @@ std::string describe(const StringFault& fault, const PathProblem& problem) {
     if (fault.kind == StringFault::Kind::Groove)
         return "the string lies in the groove between " + quoteName(problem, fault.element) + " and " +
                quoteName(problem, fault.other) + ", where no smooth path is";
+    if (fault.kind == StringFault::Kind::Sliding)
+        return "the string still slides over " + quoteName(problem, fault.element) + ", next to a neutral course";
     if (fault.kind == StringFault::Kind::OutOfOrder)
         return "the string would meet " + quoteName(problem, fault.other) + " before " +
                quoteName(problem, fault.element) + ", against the order of the path";

@@ -11,12 +11,30 @@
 namespace tautline {
 namespace {
 
-constexpr double kEndHeight = 1e-7;     ///< of ends that lie on a surface, in its sizes
-constexpr double kSaddlePush = 0.1;     ///< first sideways push of a string that rests on a saddle, in sizes
-constexpr int kMaxCuspRepairs = 3;      ///< of one contact set search
-constexpr int kMaxOtherSides = 4;       ///< obstacles that are tried from the other side
-constexpr int kMaxSaddles = 4;          ///< pushes, each twice the one before
-constexpr double kLiftLength = -1e-12;  ///< arcs shorter than this (in sizes) are lifted
+constexpr double kEndHeight = 1e-7;  ///< of ends that lie on a surface, in its sizes
+constexpr double kSaddlePush = 0.1;  ///< first sideways push of a string that rests on a saddle, in sizes
+constexpr int kMaxCuspRepairs = 3;   ///< of one contact set search
+constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the other side
+constexpr int kMaxSaddles = 6;       ///< pushes, each twice the one before
+
+bool arrivesReversed(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                     const StraightSegment& line) {
+    const int e = line.toElement;
+    return !problem.getElement(e).isPoint() && line.e.dot(pose.X_GE[e].R * path.contacts[e].geodesic.P.t) < 0;
+}
+
+bool leavesReversed(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                    const StraightSegment& line) {
+    const int e = line.fromElement;
+    return !problem.getElement(e).isPoint() && line.e.dot(pose.X_GE[e].R * path.contacts[e].geodesic.Q.t) < 0;
+}
+
+/** True if a line meets its arc with e = -t, where eps vanishes too. */
+bool hasCusp(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    for (const StraightSegment& line : path.segments)
+        if (arrivesReversed(problem, pose, path, line) || leavesReversed(problem, pose, path, line)) return true;
+    return false;
+}
 
 }  // namespace
 
@@ -28,17 +46,21 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
     problem.validate();
     require(static_cast<int>(givenPose.X_GE.size()) == problem.getNumElements(), "path solver: ", givenPose.X_GE.size(),
             " poses for ", problem.getNumElements(), " elements");
+    require(path.isEmpty() || static_cast<int>(path.contacts.size()) == problem.getNumElements(),
+            "path solver: the path to continue has ", path.contacts.size(), " elements, the problem ",
+            problem.getNumElements());
     const PathPose& pose = calcLiftedPose(problem, givenPose);
     path.iterations = path.shots = 0;
     path.wasCold = false;
     path.fault = {};
     const bool isContinued = !path.isEmpty();
+    m_previous.contacts = path.contacts;  // what a search that fails leaves behind is no course to follow
     if (!isContinued) path.contacts.assign(problem.getNumElements(), ObstacleContact());
     switchOffEnclosing(problem, pose, path);
     bool isFound = isContinued && findPath(problem, pose, PassageRule::AsBefore, path);
     if (!isFound && m_options.allowsColdStart) {
-        isFound = isContinued &&
-                  findColdPath(problem, pose, calcPreviousGuides(problem, pose, path), PassageRule::AsBefore, path);
+        isFound = isContinued && findColdPath(problem, pose, calcPreviousGuides(problem, pose, m_previous),
+                                              PassageRule::AsBefore, path);
         if (!isFound) {
             StartGuides guides = calcHintGuides(problem, pose);
             isFound = findColdPath(problem, pose, guides, PassageRule::AsHinted, path) ||
@@ -51,19 +73,27 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
 void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose& givenPose, PathSolution& path) {
     require(static_cast<int>(path.contacts.size()) == problem.getNumElements(),
             "path solver: solveKeepingContacts needs a path that was solved before");
+    require(static_cast<int>(givenPose.X_GE.size()) == problem.getNumElements(), "path solver: ", givenPose.X_GE.size(),
+            " poses for ", problem.getNumElements(), " elements");
     const PathPose& pose = calcLiftedPose(problem, givenPose);
     path.iterations = path.shots = 0;
     path.wasCold = false;
+    path.fault = {};
     switchOffEnclosing(problem, pose, path);
     m_startLengths.resize(path.contacts.size());
     for (std::size_t e = 0; e < path.contacts.size(); ++e) m_startLengths[e] = path.contacts[e].start.length;
     bool isConverged = m_newton.iterate(problem, pose, path);
-    for (int repair = 0; isConverged && turnCuspsRound(problem, pose, path); ++repair)
-        isConverged = repair < kMaxCuspRepairs && m_newton.iterate(problem, pose, path);
-    m_startLengths.clear();
+    for (int repair = 0; isConverged && hasCusp(problem, pose, path); ++repair) {
+        if (repair == kMaxCuspRepairs) {
+            isConverged = false;
+            break;
+        }
+        turnCuspsRound(problem, pose, &m_startLengths, path);
+        isConverged = m_newton.iterate(problem, pose, path);
+    }
     updateClearances(problem, pose, path);
     watchNearestPlaces(problem, pose, path);
-    updatePassages(problem, pose, path);
+    updatePassages(problem, pose, isConverged, path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
 }
 
@@ -102,45 +132,36 @@ bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, Pass
         if (verification.isMinimum()) return hasRightPassages(problem, pose, rule, path);
         if (verification.condition != PathVerification::Condition::ReversedTangent || repair == kMaxCuspRepairs)
             return false;
-        turnCuspsRound(problem, pose, path);
+        turnCuspsRound(problem, pose, nullptr, path);
     }
     return false;
 }
 
-/** eps vanishes too where a line meets its arc with e = -t. Seen from a point at distance l along the line, the
-tangent point that is meant lies 2 atan(kappa l)/kappa back along the arc if that is a circle, or on by the rest of the
-circle: of the two the one that leaves the arc nearer to its length in m_startLengths, if that is known.
-@return true if there was such an end */
-bool PathSolver::turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
-    bool isAny = false;
+/** Seen from a point at distance l along a line that meets its arc with e = -t, the tangent point that is meant lies
+2 atan(kappa l)/kappa back along the arc if that is a circle, or on by the rest of the circle: of the two the one that
+leaves the arc nearer to its length in `startLengths` (by element), if those are given. */
+void PathSolver::turnCuspsRound(const PathProblem& problem, const PathPose& pose,
+                                const std::vector<double>* startLengths, PathSolution& path) const {
     const auto calcShift = [&](int e, const DarbouxFrame& end, double lineLength) {
         const double curvature = std::abs(end.kappaN), length = path.contacts[e].start.length;
         const double back = curvature > 0 ? 2 * std::atan(curvature * lineLength) / curvature : 2 * lineLength;
-        if (m_startLengths.empty() || !(curvature > 0)) return -back;
-        const double on = 2 * kPi / curvature - back, start = m_startLengths[e];
+        if (!startLengths || !(curvature > 0)) return -back;
+        const double on = 2 * kPi / curvature - back, start = (*startLengths)[e];
         return std::abs(length - back - start) < std::abs(length + on - start) ? -back : on;
     };
     for (const StraightSegment& line : path.segments) {
-        if (!problem.getElement(line.toElement).isPoint()) {
+        if (arrivesReversed(problem, pose, path, line)) {
             ObstacleContact& contact = path.contacts[line.toElement];
             const DarbouxFrame& P = contact.geodesic.P;
-            if (line.e.dot(pose.X_GE[line.toElement].R * P.t) < 0) {
-                const double shift = calcShift(line.toElement, P, line.length);
-                const Surface& surface = *problem.getElement(line.toElement).surface;
-                contact.start = calcCorrectedStart(surface, contact.start, P, Vec4(-shift, 0, 0, shift));
-                isAny = true;
-            }
+            const double shift = calcShift(line.toElement, P, line.length);
+            const Surface& surface = *problem.getElement(line.toElement).surface;
+            contact.start = calcCorrectedStart(surface, contact.start, P, Vec4(-shift, 0, 0, shift));
         }
-        if (!problem.getElement(line.fromElement).isPoint()) {
+        if (leavesReversed(problem, pose, path, line)) {
             ObstacleContact& contact = path.contacts[line.fromElement];
-            const DarbouxFrame& Q = contact.geodesic.Q;
-            if (line.e.dot(pose.X_GE[line.fromElement].R * Q.t) < 0) {
-                contact.start.length += calcShift(line.fromElement, Q, line.length);
-                isAny = true;
-            }
+            contact.start.length += calcShift(line.fromElement, contact.geodesic.Q, line.length);
         }
     }
-    return isAny;
 }
 
 /** Lets a string fall taut along the guides, ever finer, until Newton's method leads on from it to a
@@ -154,6 +175,7 @@ bool PathSolver::findColdPath(const PathProblem& problem, const PathPose& pose, 
     constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 6000}, {0.5, 1e-6, 6000}};
     constexpr Level kFromSaddle = {0.5, 1e-6, 4000};  // it slides off slowly
     path.wasCold = true;
+    path.fault = {};
     m_string.lay(problem, pose, guides);
     for (const Level& level : kLevels) {
         if (tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, rule, path)) return true;
@@ -185,6 +207,7 @@ bool PathSolver::findOtherSides(const PathProblem& problem, const PathPose& pose
             return true;
         guides[e] = hinted;
     }
+    std::swap(m_previous.iterations, path.iterations), std::swap(m_previous.shots, path.shots);
     path = m_previous;
     return false;
 }
@@ -218,12 +241,14 @@ bool PathSolver::hasRightPassages(const PathProblem& problem, const PathPose& po
     return isRight;
 }
 
-/** Notes the passages through holes, and which were lost since the path that this one was continued from. */
-void PathSolver::updatePassages(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
+/** Notes the passages through holes, and which were lost since the path that this one was continued from. Those of a
+path that did not converge, or has left the hole, are no course to keep: the ones before them stay. */
+void PathSolver::updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged,
+                                PathSolution& path) const {
     visitHoles(problem, pose, path,
                [&](const PathElement& element, const ObstacleContact& contact, const HolePassage& passage, int e) {
                    path.contacts[e].hasLeftHole = hasLeftHole(*element.surface, contact.passage, passage);
-                   path.contacts[e].passage = passage;
+                   if (isConverged && !path.contacts[e].hasLeftHole) path.contacts[e].passage = passage;
                });
 }
 
@@ -316,7 +341,7 @@ void PathSolver::watchNearestPlaces(const PathProblem& problem, const PathPose& 
 /** @return the obstacle whose contact violates its condition most, those that must lift first; -1 if none does */
 int PathSolver::findWorstContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) const {
     int lift = -1, touch = -1;
-    double shortest = kLiftLength, deepest = kContactTolerance;
+    double shortest = kShortestArc, deepest = kContactTolerance;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (problem.getElement(e).isPoint() || !pose.hasElement(e)) continue;
         const ObstacleContact& contact = path.contacts[e];
@@ -333,7 +358,7 @@ int PathSolver::findWorstContact(const PathProblem& problem, const PathPose& pos
 }
 
 void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) {
-    updatePassages(problem, pose, path);
+    updatePassages(problem, pose, isConverged, path);
     path.status = PathStatus::Solved;
     for (int e = 0; e < problem.getNumElements(); ++e)
         if (!problem.getElement(e).isPoint() && pose.hasElement(e) && path.contacts[e].isSwitchedOff)

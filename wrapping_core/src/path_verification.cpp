@@ -14,21 +14,12 @@ using Condition = PathVerification::Condition;
 constexpr GeodesicOptions kWalking{1e-6, 200};  ///< for looking along an arc whose ends are known exactly
 constexpr double kNeutral = 1e-9;  ///< relative second variation below which a path is neither stable nor unstable
 
-/** True if the arc presses on its surface all along: kappa_n <= 0 at closely spaced points. */
+/** True if the arc presses on its surface all along: kappa_n <= 0. */
 bool pressesEverywhere(const Surface& surface, const ObstacleContact& contact) {
     const double tolerance = 1e-9 / surface.getSize();
     if (contact.geodesic.P.kappaN > tolerance || contact.geodesic.Q.kappaN > tolerance) return false;
     if (surface.isConvex() || !(contact.start.length > 0)) return true;
-    const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * contact.start.length / surface.getSize()));
-    GeodesicStart from = contact.start;
-    from.length /= pieces;
-    Geodesic piece;
-    for (int i = 1; i < pieces; ++i) {
-        surface.shootGeodesic(from, kWalking, piece);
-        if (piece.Q.kappaN > tolerance) return false;
-        from.point = piece.endPoint, from.tangent = piece.Q.t;
-    }
-    return true;
+    return !(calcLargestNormalCurvature(surface, contact.start, contact.geodesic) > tolerance);
 }
 
 /** True if a straight segment that leaves the surface at one end dips below it elsewhere. */
@@ -51,11 +42,11 @@ bool isInDomain(const Surface& surface, const ObstacleContact& contact) {
 }
 
 Condition verifyContact(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
-                        const StraightSegment& in, const StraightSegment& out) {
+                        const StraightSegment& in, const StraightSegment& out, double shortestArc) {
     const Geodesic& arc = contact.geodesic;
     if (!isInDomain(surface, contact)) return Condition::OutsideDomain;
     if (!(in.e.dot(X_GS.R * arc.P.t) > 0) || !(out.e.dot(X_GS.R * arc.Q.t) > 0)) return Condition::ReversedTangent;
-    if (contact.start.length < -1e-12 * surface.getSize()) return Condition::NegativeLength;
+    if (contact.start.length < shortestArc * surface.getSize()) return Condition::NegativeLength;
     if (arc.hasConjugatePoint && contact.start.length > 0) return Condition::ConjugatePoint;
     if (!pressesEverywhere(surface, contact)) return Condition::PullsOutward;
     if (meetsOwnSurface(surface, X_GS, in) || meetsOwnSurface(surface, X_GS, out)) return Condition::Penetration;
@@ -129,7 +120,8 @@ Vec3 findPlace(const Surface& surface, const Pose& X_GS, const ObstacleContact& 
 
 }  // namespace
 
-PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                            double shortestArc) {
     int segmentIn = 0;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const PathElement& element = problem.getElement(e);
@@ -138,7 +130,7 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
         if (contact.isTouched) {
             while (path.segments[segmentIn].toElement != e) ++segmentIn;
             const StraightSegment &in = path.segments[segmentIn], &out = path.segments[segmentIn + 1];
-            const Condition condition = verifyContact(*element.surface, pose.X_GE[e], contact, in, out);
+            const Condition condition = verifyContact(*element.surface, pose.X_GE[e], contact, in, out, shortestArc);
             if (condition != Condition::None)
                 return {condition, e, findPlace(*element.surface, pose.X_GE[e], contact, condition, in, out)};
         } else if (!contact.isSwitchedOff && contact.clearance.distance * contact.clearance.scale < kContactTolerance) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "tautline/geodesic_events.h"
 
 namespace tautline {
 namespace {
@@ -23,7 +26,8 @@ double calcReturnHeight(const Surface& surface, const Pose& X_GS, const Straight
             double a = (i - 1) * spacing, b = (i + 1) * spacing;
             for (int k = 0; k < kRefinements; ++k) {
                 const double left = a + (b - a) / 3, right = b - (b - a) / 3;
-                (height(left) < height(right) ? b : a) = height(left) < height(right) ? right : left;
+                const bool isLeftLower = height(left) < height(right);
+                (isLeftLower ? b : a) = isLeftLower ? right : left;
             }
             lowest = std::min(lowest, height(0.5 * (a + b)));
         }
@@ -40,8 +44,7 @@ double calcSingleContactWitness(const PathProblem& problem, const PathPose& pose
     const Surface& surface = *problem.getElement(element).surface;
     const ObstacleContact& contact = path.contacts[element];
     if (!contact.isTouched || surface.isConvex()) return 1;
-    const Geodesic& arc = contact.geodesic;
-    double witness = -std::max({arc.P.kappaN, arc.Q.kappaN, arc.maxKappaN}) * surface.getSize();
+    double witness = -calcLargestNormalCurvature(surface, contact.start, contact.geodesic) * surface.getSize();
     for (const StraightSegment& line : path.segments)
         if (line.fromElement == element || line.toElement == element)
             witness = std::min(witness, calcReturnHeight(surface, pose.X_GE[element], line));

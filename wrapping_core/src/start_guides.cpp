@@ -12,7 +12,7 @@ constexpr int kArcGuides = 6;      ///< points taken from each arc of a previous
 constexpr int kGuidesPerTurn = 8;  ///< of a winding
 constexpr double kFar = 1e3;       ///< in sizes of the surface: from there the way down ends on the outside
 constexpr double kThrough = 3;     ///< in sizes: from the surface inwards, beyond the middle
-constexpr int kHoleHalvings = 12;  ///< towards the hole's centre
+constexpr int kHoleSteps = 12;     ///< towards the hole's centre
 
 /** Where the straight line of the string comes from and goes to, in S. */
 struct Chord {
@@ -32,7 +32,7 @@ Vec3 findHolePoint(const Surface& surface, const Chord& chord) {
     const Vec3 step = chord.B_S - chord.A_S;
     Vec3 point = chord.A_S + chord.A_S.z() / (chord.A_S.z() - chord.B_S.z()) * step, N;
     point.z() = 0;
-    for (int i = 0; i < kHoleHalvings && surface.calcHeight(point, N) < 0; ++i) point *= 0.8;
+    for (int i = 0; i < kHoleSteps && surface.calcHeight(point, N) < 0; ++i) point *= 0.8;
     return point;
 }
 

@@ -63,6 +63,7 @@ private:
     std::vector<Hold> m_holds;
     double m_extent = 0;  ///< length of the string when laid [m]
     int m_numSweeps = 0;
+    bool m_isAtRest = true;  ///< the last relaxation came to its tolerance
 };
 
 }  // namespace tautline

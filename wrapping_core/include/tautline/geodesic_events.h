@@ -19,11 +19,15 @@ before the end, or where the geodesic cannot be shot to its end: nothing. */
 std::optional<GeodesicPlace> findConjugatePoint(const Surface& surface, const GeodesicStart& start,
                                                 const GeodesicOptions& options = {});
 
-/** All places inside the arc where kappaN changes sign, in order from the start: a string presses on one side of each and
-would lift on the other. Pieces are an eighth of the local radius of curvature at most; two changes that lie
-closer are found if kappaN dips visibly between its samples. */
+/** All places inside the arc where kappaN changes sign, in order from the start: a string presses on one side of each
+and would lift on the other. Pieces are an eighth of the local radius of curvature at most; two changes that lie closer
+are found if kappaN dips visibly between its samples. */
 std::vector<GeodesicPlace> findPressureChanges(const Surface& surface, const GeodesicStart& start,
                                                const GeodesicOptions& options = {});
+
+/** The largest kappaN along the arc, of its ends and of places at most a fifth of the surface's size apart: where it is
+positive a string would lift. */
+double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const Geodesic& geodesic);
 
 /** Where the geodesic first leaves the domain of its surface: the start if that is outside, nothing if it stays inside
 from end to end. Beyond the edge patches go on smoothly, so that the search may look there. */

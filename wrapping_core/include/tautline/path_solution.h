@@ -26,8 +26,8 @@ struct ObstacleContact {
     Geodesic geodesic;           ///< in S; only while touched
     LineClearance clearance;     ///< in S; of the straight line that passes the surface while lifted
     int segment = -1;            ///< while lifted: index of that straight segment
-    HolePassage passage;         ///< of surfaces that have a hole
-    bool hasLeftHole = false;    ///< the path no longer goes through it as the one did that it was continued from
+    HolePassage passage;         ///< of surfaces that have a hole: the one that a continued path has to keep
+    bool hasLeftHole = false;    ///< the path no longer goes through the hole in that way
 };
 
 /** A straight segment between fixed points and arcs; A and B in ground. */
@@ -44,6 +44,7 @@ struct StringFault {
         None,
         Groove,       ///< it lies in the groove where two surfaces meet: a kink
         TwoContacts,  ///< it touches one surface, leaves it, and touches it again
+        Sliding,      ///< it has not come to rest: it slides so slowly that it is next to a neutral course
         OutOfOrder,   ///< it meets two obstacles against the order of the path: it would have to cross itself
     };
     Kind kind = Kind::None;

@@ -31,7 +31,8 @@ private:
     enum class PassageRule { AsBefore, AsHinted };
 
     const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
-    bool turnCuspsRound(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
+    void turnCuspsRound(const PathProblem& problem, const PathPose& pose, const std::vector<double>* startLengths,
+                        PathSolution& path) const;
     bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
                        int maxSweeps, PassageRule rule, PathSolution& path);
     bool leaveSaddle(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
@@ -41,7 +42,7 @@ private:
     bool findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides, PathSolution& path);
     bool hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule,
                           const PathSolution& path) const;
-    void updatePassages(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
+    void updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) const;
     bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     int findWorstContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) const;
     void watchNearestPlaces(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;

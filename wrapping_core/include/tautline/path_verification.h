@@ -9,7 +9,7 @@ struct PathVerification {
     enum class Condition {
         None,             ///< all hold
         ReversedTangent,  ///< e . t <= 0 at an end of an arc: a cusp
-        NegativeLength,   ///< an arc shorter than -1e-12 of the surface's size
+        NegativeLength,   ///< an arc shorter than kShortestArc
         PullsOutward,     ///< kappa_n > 0 somewhere on an arc: a string would lift there
         ConjugatePoint,   ///< the arc is longer than a shortest curve can be
         Unstable,         ///< the second variation of the length is not positive: a saddle or a longest path
@@ -23,7 +23,11 @@ struct PathVerification {
     bool isMinimum() const { return condition == Condition::None; }
 };
 
+/** Arcs shorter than this, in sizes of their surfaces, are of negative length. */
+inline constexpr double kShortestArc = -1e-12;
+
 /** Checks the conditions of a local minimum on a solved path, contact set included. */
-PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path);
+PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                            double shortestArc = kShortestArc);
 
 }  // namespace tautline

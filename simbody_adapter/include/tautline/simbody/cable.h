@@ -112,7 +112,7 @@ public:
     void setDisabledByDefault(bool isDisabled);
     bool isDisabledByDefault() const;
 
-    /** Called by the event handlers for each contact made or lost, in the thread of the study. */
+    /** Called by the event handlers for each ContactEvent, in the thread of the study. */
     void setContactListener(std::function<void(const ContactEvent&)> listener);
     ///@}
 

@@ -19,7 +19,8 @@ realize(Position) finds path and contact set anew from the cable's hints, so tha
 of the pose alone. When a time-stepping study initializes (TimeStepper::initialize() or
 Integrator::initialize(), both raise Simbody's Initialization event for every subsystem), the contact sets
 found in the initial state are fixed in the study's own State; from then on only the event handlers of the
-cables change them, and paths are continued from step to step. See Cable::fixContacts(). */
+cables change them, and paths are continued from step to step. See Cable::fixContacts(). A cable that is disabled
+then, or has no solution, stays free: it is solved anew in every pose, without events, until fixContacts(). */
 class CableSubsystem : public SimTK::Subsystem {
 public:
     explicit CableSubsystem(SimTK::MultibodySystem& system);
