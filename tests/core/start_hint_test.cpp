@@ -163,6 +163,19 @@ TEST(HolePassage, FollowsAnEndThatIsPulledThroughTheHole) {
     }
 }
 
+// Symptom (2026-11-24): neither a start nor leave to look for one left a path without segments, of length NaN.
+TEST(PathStart, IsTheStraightLineWhereNoneIsGivenAndNoneMayBeSought) {
+    PathSolverOptions options;
+    options.allowsColdStart = false;
+    for (const double h : {0.5, 1.5}) {
+        SingleObstacle scene(std::make_shared<Torus>(1, 0.2), {}, Vec3(-3, h, 0.3), Vec3(3, h, 0.25));
+        PathSolution path;
+        PathSolver(options).solve(scene.problem, scene.pose, path);
+        EXPECT_TRUE(std::isfinite(path.length)) << h;
+        EXPECT_FALSE(path.segments.empty()) << h;
+    }
+}
+
 std::string getRefusal(std::shared_ptr<const Surface> surface, const StartHint& hint) {
     try {
         PathProblem problem;

@@ -82,6 +82,42 @@ TEST(CableKinematics, ForcesAndMomentsBalance) {
     for (SimTK::MobilizedBodyIndex b(0); b < F_G.size(); ++b) EXPECT_LT((applied[b] - 5.0 * F_G[b]).norm(), 1e-14);
 }
 
+/** One iteration is not enough for the solver, and the best path that it met is what pulls. */
+TEST(CableKinematics, APathThatIsNoSolutionBalancesAndHasItsOwnRateAndPower) {
+    BareScene scene;
+    MobilizedBody::Free first(scene.matter.Ground(), Transform(), makeBody(), Transform());
+    MobilizedBody::Free second(scene.matter.Ground(), Transform(), makeBody(), Transform());
+    MobilizedBody::Free end(scene.matter.Ground(), Transform(), makeBody(), Transform());
+    Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(-3, 0, 0), end, SimTK::Vec3(0.1, 0, 0.2));
+    cable.addObstacle(first, Transform(), std::make_shared<Cylinder>(1), SimTK::Vec3(0, 1, 0));
+    cable.addObstacle(second, Transform(), std::make_shared<Torus>(1, 0.4), SimTK::Vec3(0, 0.6, 0));
+    PathSolverOptions options;
+    options.maxIterations = 1;
+    cable.setOptions(options);
+    State state = scene.system.realizeTopology();
+    first.setQToFitTranslation(state, SimTK::Vec3(-1, 0, 0));
+    second.setQToFitTranslation(state, SimTK::Vec3(2, -0.5, 0));
+    end.setQToFitTranslation(state, SimTK::Vec3(4, 0.1, 0.3));
+    for (int i = 0; i < state.getNU(); ++i) state.updU()[i] = std::sin(1 + 2.3 * i);
+    scene.system.realize(state, Stage::Velocity);
+    ASSERT_EQ(cable.getStatus(state), PathStatus::NotConverged);
+    EXPECT_TRUE(std::isfinite(cable.getLength(state)));
+    SimTK::Vector_<SimTK::SpatialVec> F_G;
+    cable.calcUnitBodyForces(state, F_G);
+    SimTK::Vec3 force(0), moment(0);
+    Real power = 0;
+    for (SimTK::MobilizedBodyIndex b(0); b < F_G.size(); ++b) {
+        const MobilizedBody& body = scene.matter.getMobilizedBody(b);
+        force += F_G[b][1];
+        moment += F_G[b][0] + body.getBodyOriginLocation(state) % F_G[b][1];
+        power += ~F_G[b] * body.getBodyVelocity(state);
+    }
+    EXPECT_LT(force.norm(), 1e-13);
+    EXPECT_LT(moment.norm(), 1e-12);
+    EXPECT_NEAR(power, -cable.getLengthRate(state), 1e-12);
+    EXPECT_NEAR(cable.calcPower(state, 7), -7 * cable.getLengthRate(state), 1e-12);
+}
+
 TEST(CableKinematics, MomentArmIsMinusTheDerivativeOfLength) {
     MechanismScene scene;
     const State state = scene.makeState(0.4);

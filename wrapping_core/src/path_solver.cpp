@@ -57,7 +57,8 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
     m_previous.contacts = path.contacts;  // what a search that fails leaves behind is no course to follow
     if (!isContinued) path.contacts.assign(problem.getNumElements(), ObstacleContact());
     switchOffEnclosing(problem, pose, path);
-    bool isFound = isContinued && findPath(problem, pose, PassageRule::AsBefore, path);
+    // Without a start and without leave to look for one, the straight line is the start.
+    bool isFound = (isContinued || !m_options.allowsColdStart) && findPath(problem, pose, PassageRule::AsBefore, path);
     if (!isFound && m_options.allowsColdStart) {
         isFound = isContinued && findColdPath(problem, pose, calcPreviousGuides(problem, pose, m_previous),
                                               PassageRule::AsBefore, path);
