@@ -283,8 +283,70 @@ TEST(ContactEvents, ASecondContactOnARingIsReportedWhenItBegins) {
     EXPECT_EQ(events[0].kind, Kind::Split);
     EXPECT_EQ(events[0].obstacle, ring);
     EXPECT_EQ(events[0].lengthBefore, events[0].lengthAfter);
+    scene.system.realize(stepper.getState(), Stage::Position);
+    EXPECT_EQ(cable.calcStatus(stepper.getState()), PathStatus::NotMinimum);
     // 0.3 + 0.4 cos(1.5 t) = 0.2
     EXPECT_NEAR(events[0].time, std::acos((0.2 - mean) / amplitude) / frequency, 1e-8);
+}
+
+/** A body that stands at 0 and, from t = 1 s on, at 2 m. */
+class Jump : public SimTK::Motion::Custom::Implementation {
+public:
+    Implementation* clone() const override { return new Jump(*this); }
+    SimTK::Motion::Level getLevel(const State&) const override { return SimTK::Motion::Position; }
+    void calcPrescribedPosition(const State& state, int n, Real* q) const override {
+        std::fill(q, q + n, state.getTime() < 1 ? 0 : 2);
+    }
+    void calcPrescribedPositionDot(const State&, int n, Real* qDot) const override { std::fill(qDot, qDot + n, 0); }
+    void calcPrescribedPositionDotDot(const State&, int n, Real* qDotDot) const override {
+        std::fill(qDotDot, qDotDot + n, 0);
+    }
+};
+
+/** A ring that jumps off the straight string that is threaded through it. */
+struct JumpingRing : BareScene {
+    explicit JumpingRing(bool allowsColdStart) : ring(matter.Ground(), Transform(), makeBody(), Transform()) {
+        SimTK::Motion::Custom(ring, new Jump);
+        cable = Cable(cables, matter.Ground(), SimTK::Vec3(0, 0.1, -3), matter.Ground(), SimTK::Vec3(0.1, 0, 3));
+        obstacle = cable.addObstacle(ring, Transform(), std::make_shared<Torus>(1, 0.2));
+        PathSolverOptions options;
+        options.allowsColdStart = allowsColdStart;
+        cable.setOptions(options);
+        cable.setContactListener([this](const ContactEvent& event) { events.push_back(event); });
+        // Of fixed step: control of the error does not go beyond a jump.
+        SimTK::ExplicitEulerIntegrator integrator(system, 0.2);
+        const State initial = system.realizeTopology();
+        SimTK::TimeStepper stepper(system, integrator);
+        stepper.initialize(initial);
+        stepper.stepTo(2);
+        finalState = stepper.getState();
+        system.realize(finalState, Stage::Position);
+    }
+    MobilizedBody::Slider ring;
+    Cable cable;
+    CableElementIndex obstacle;
+    std::vector<ContactEvent> events;
+    State finalState;
+};
+
+TEST(ContactEvents, ARingThatJumpsTakesItsStringAlong) {
+    const JumpingRing scene(true);
+    ASSERT_EQ(scene.events.size(), 1u);
+    EXPECT_EQ(scene.events[0].kind, Kind::Made);
+    EXPECT_NEAR(scene.events[0].time, 1, 1e-6);
+    EXPECT_EQ(scene.cable.calcStatus(scene.finalState), PathStatus::Solved);
+    EXPECT_EQ(scene.cable.getStatistics().numHolesLeft, 0);
+}
+
+// Without leave to lay it anew the string is lost: told once, and the status says so from there on.
+TEST(ContactEvents, AStringThatIsLostByItsRingIsReported) {
+    const JumpingRing scene(false);
+    ASSERT_EQ(scene.events.size(), 1u);
+    EXPECT_EQ(scene.events[0].kind, Kind::LeftHole);
+    EXPECT_EQ(scene.events[0].obstacle, scene.obstacle);
+    EXPECT_NEAR(scene.events[0].time, 1, 1e-6);
+    EXPECT_EQ(scene.cable.calcStatus(scene.finalState), PathStatus::NotMinimum);
+    EXPECT_EQ(scene.cable.getStatistics().numHolesLeft, 1);
 }
 
 }  // namespace

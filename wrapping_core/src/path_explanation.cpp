@@ -101,6 +101,10 @@ std::string explainStatus(const PathProblem& problem, const PathPose& pose, cons
         place << " at (" << verification.place_G.x() << ", " << verification.place_G.y() << ", "
               << verification.place_G.z() << ")";
         text = describe(verification, problem) + place.str();
+        // What passes below the very surface that it has left would touch it again.
+        const bool isOwn =
+            verification.condition == Condition::Penetration && path.contacts[verification.element].isTouched;
+        if (isOwn) return text + ": " + describe({StringFault::Kind::TwoContacts, verification.element, -1}, problem);
     }
     const int vanishing = findVanishingPressure(problem, path);
     if (path.fault.kind != StringFault::Kind::None)
