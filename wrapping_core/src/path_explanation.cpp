@@ -73,6 +73,25 @@ int findVanishingPressure(const PathProblem& problem, const PathSolution& path) 
     return -1;
 }
 
+/** Two obstacles of which the arc on one ends below the surface of the other: they overlap where the path passes. */
+StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    Vec3 N_S;
+    const auto isBelow = [&](const Vec3& p_G, int other) {
+        const Surface& surface = *problem.getElement(other).surface;
+        return surface.calcHeight(pose.X_GE[other].shiftBack(p_G), N_S) < -1e-6 * surface.getSize();
+    };
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (problem.getElement(e).isPoint() || !path.contacts[e].isTouched) continue;
+        const Geodesic& arc = path.contacts[e].geodesic;
+        for (int other = 0; other < problem.getNumElements(); ++other) {
+            if (other == e || problem.getElement(other).isPoint() || !path.contacts[other].isTouched) continue;
+            if (isBelow(pose.X_GE[e] * arc.P.x, other) || isBelow(pose.X_GE[e] * arc.Q.x, other))
+                return {StringFault::Kind::Groove, e, other};
+        }
+    }
+    return {};
+}
+
 std::string describe(const StringFault& fault, const PathProblem& problem) {
     if (fault.kind == StringFault::Kind::Groove)
         return "the string lies in the groove between " + quoteName(problem, fault.element) + " and " +
@@ -107,8 +126,10 @@ std::string explainStatus(const PathProblem& problem, const PathPose& pose, cons
         if (isOwn) return text + ": " + describe({StringFault::Kind::TwoContacts, verification.element, -1}, problem);
     }
     const int vanishing = findVanishingPressure(problem, path);
-    if (path.fault.kind != StringFault::Kind::None)
-        text += ": " + describe(path.fault, problem);
+    const StringFault fault =
+        path.fault.kind != StringFault::Kind::None ? path.fault : findOverlap(problem, pose, path);
+    if (fault.kind != StringFault::Kind::None)
+        text += ": " + describe(fault, problem);
     else if (path.status == PathStatus::NotConverged && vanishing >= 0)
         text += ": the pressure vanishes at an end of the arc on " + quoteName(problem, vanishing);
     return text;
