@@ -11,13 +11,19 @@ using SimTK::State;
 
 namespace {
 
+Real requireNotNegative(const char* force, const Cable& cable, Real value, const char* what) {
+    require(std::isfinite(value) && value >= 0, force, " on cable '", cable.getName(), "': ", what,
+            " must be finite and not negative, but is ", value);
+    return value;
+}
+
 class ElasticStringLaw : public CableForceLaw {
 public:
     ElasticStringLaw(const Cable& cable, Real slackLength, Real stiffness, Real damping)
         : CableForceLaw(cable),
-          m_slackLength(checked(slackLength, "slack length")),
-          m_stiffness(checked(stiffness, "stiffness")),
-          m_damping(checked(damping, "damping")) {}
+          m_slackLength(requireNotNegative("elastic string force", cable, slackLength, "slack length")),
+          m_stiffness(requireNotNegative("elastic string force", cable, stiffness, "stiffness")),
+          m_damping(requireNotNegative("elastic string force", cable, damping, "damping")) {}
 
     Real getSlackLength() const { return m_slackLength; }
     Real getStiffness() const { return m_stiffness; }
@@ -39,12 +45,6 @@ public:
     }
 
 private:
-    Real checked(Real value, const char* what) const {
-        require(std::isfinite(value) && value >= 0, "elastic string force on cable '", getCable().getName(),
-                "': ", what, " must be finite and not negative, but is ", value);
-        return value;
-    }
-
     Real m_slackLength, m_stiffness, m_damping;
 };
 
@@ -52,9 +52,9 @@ class CableSpringLaw : public CableForceLaw {
 public:
     CableSpringLaw(const Cable& cable, Real restLength, Real stiffness, Real damping)
         : CableForceLaw(cable),
-          m_restLength(checked(restLength, "rest length")),
-          m_stiffness(checked(stiffness, "stiffness")),
-          m_damping(checked(damping, "damping")) {}
+          m_restLength(requireNotNegative("cable spring", cable, restLength, "rest length")),
+          m_stiffness(requireNotNegative("cable spring", cable, stiffness, "stiffness")),
+          m_damping(requireNotNegative("cable spring", cable, damping, "damping")) {}
 
     Real getRestLength() const { return m_restLength; }
     Real getStiffness() const { return m_stiffness; }
@@ -71,12 +71,6 @@ public:
 
 private:
     Real calcStretch(const State& state) const { return getCable().getLength(state) - m_restLength; }
-
-    Real checked(Real value, const char* what) const {
-        require(std::isfinite(value) && value >= 0, "cable spring on cable '", getCable().getName(), "': ", what,
-                " must be finite and not negative, but is ", value);
-        return value;
-    }
 
     Real m_restLength, m_stiffness, m_damping;
 };

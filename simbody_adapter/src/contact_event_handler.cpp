@@ -11,40 +11,35 @@ constexpr SimTK::Real kLocalizationWindow = 1e-6;
 
 }  // namespace
 
-ContactEventHandler::ContactEventHandler(const CableImpl& cable, CableElementIndex obstacle)
-    : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_obstacle(obstacle) {
+ElementEventHandler::ElementEventHandler(const CableImpl& cable, CableElementIndex element)
+    : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_element(element) {
     getTriggerInfo().setTriggerOnRisingSignTransition(false).setRequiredLocalizationTimeWindow(kLocalizationWindow);
 }
 
 SimTK::Real ContactEventHandler::getValue(const SimTK::State& state) const {
-    return m_cable.isDisabled(state) ? 1 : m_cable.calcWitness(state, m_obstacle);
+    return m_cable.isDisabled(state) ? 1 : m_cable.calcWitness(state, m_element);
 }
 
 void ContactEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {
     m_cable.handleContactEvent(state);
 }
 
-SplitEventHandler::SplitEventHandler(const CableImpl& cable, CableElementIndex obstacle)
-    : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_obstacle(obstacle) {
-    getTriggerInfo().setTriggerOnRisingSignTransition(false).setRequiredLocalizationTimeWindow(kLocalizationWindow);
-}
-
 SimTK::Real SplitEventHandler::getValue(const SimTK::State& state) const {
-    return m_cable.isDisabled(state) ? 1 : m_cable.calcSplitWitness(state, m_obstacle);
+    return m_cable.isDisabled(state) ? 1 : m_cable.calcSplitWitness(state, m_element);
 }
 
 void SplitEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {
-    m_cable.reportSplit(state, m_obstacle);
+    m_cable.reportSplit(state, m_element);
 }
 
 ConditionEventHandler::ConditionEventHandler(const CableImpl& cable, CableElementIndex point)
-    : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_point(point) {
-    getTriggerInfo().setRequiredLocalizationTimeWindow(kLocalizationWindow);
+    : ElementEventHandler(cable, point) {
+    getTriggerInfo().setTriggerOnRisingSignTransition(true);  // both ways
 }
 
 /** A jump from -1 to 1: the event finder halves its interval. */
 SimTK::Real ConditionEventHandler::getValue(const SimTK::State& state) const {
-    return m_cable.isDisabled(state) || m_cable.getElement(m_point).isActive(state) ? 1 : -1;
+    return m_cable.isDisabled(state) || m_cable.getElement(m_element).isActive(state) ? 1 : -1;
 }
 
 void ConditionEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {

@@ -5,44 +5,42 @@
 
 namespace tautline {
 
-/** Watches one obstacle of one cable at Stage::Position and changes its contact. Added to the System, not
-allocated in the CableSubsystem: Simbody 3.7 mixes up the witnesses of a subsystem of one's own with those
+/** Watches one element of one cable at Stage::Position, by default for a witness that falls through zero. Added to the
+System, not allocated in the CableSubsystem: Simbody 3.7 mixes up the witnesses of a subsystem of one's own with those
 of a user's handlers at later stages. */
-class ContactEventHandler : public SimTK::TriggeredEventHandler {
+class ElementEventHandler : public SimTK::TriggeredEventHandler {
 public:
-    ContactEventHandler(const CableImpl& cable, CableElementIndex obstacle);
+    ElementEventHandler(const CableImpl& cable, CableElementIndex element);
+
+protected:
+    const CableImpl& m_cable;
+    CableElementIndex m_element;
+};
+
+/** Changes the contact of an obstacle. */
+class ContactEventHandler : public ElementEventHandler {
+public:
+    using ElementEventHandler::ElementEventHandler;
     SimTK::Real getValue(const SimTK::State& state) const override;
     void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
-
-private:
-    const CableImpl& m_cable;
-    CableElementIndex m_obstacle;
 };
 
 /** Watches whether one arc still describes how a surface that is not convex holds the cable, and reports where it no
 longer does. */
-class SplitEventHandler : public SimTK::TriggeredEventHandler {
+class SplitEventHandler : public ElementEventHandler {
 public:
-    SplitEventHandler(const CableImpl& cable, CableElementIndex obstacle);
+    using ElementEventHandler::ElementEventHandler;
     SimTK::Real getValue(const SimTK::State& state) const override;
     void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
-
-private:
-    const CableImpl& m_cable;
-    CableElementIndex m_obstacle;
 };
 
 /** Stops a step where the condition of a point changes, since the length jumps there, and lets the contacts that
 this changes settle. */
-class ConditionEventHandler : public SimTK::TriggeredEventHandler {
+class ConditionEventHandler : public ElementEventHandler {
 public:
     ConditionEventHandler(const CableImpl& cable, CableElementIndex point);
     SimTK::Real getValue(const SimTK::State& state) const override;
     void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
-
-private:
-    const CableImpl& m_cable;
-    CableElementIndex m_point;
 };
 
 }  // namespace tautline

@@ -44,6 +44,15 @@ std::string findCoordinateName(const std::string& label) {
     return label.substr(start, end - start);
 }
 
+/** Poses a model as a frame of a motion in degrees says. */
+void setFrame(const BuiltModel& model, const Table& motion, std::size_t frame, SimTK::State& state) {
+    for (std::size_t i = 1; i < motion.labels.size(); ++i) {
+        const std::string name = findCoordinateName(motion.labels[i]);
+        const bool shifts = name == "pelvis_tx" || name == "pelvis_ty";
+        model.setCoordinate(state, name, motion.rows[frame][i] * (shifts ? 1.0 : SimTK_DEGREE_TO_RADIAN));
+    }
+}
+
 TEST(DataWalk1018, HasTheReferenceLengthsOverTheMotion) {
     TAUTLINE_SKIP_WITHOUT_SHARED(shared);
     const auto folder = shared / "data" / "opensim";
@@ -56,11 +65,8 @@ TEST(DataWalk1018, HasTheReferenceLengthsOverTheMotion) {
     ASSERT_EQ(walk.description.muscles.size() + 1, lengths.labels.size());
     double worst = 0.0;
     for (std::size_t frame = 0; frame < motion.rows.size(); ++frame) {
-        for (std::size_t i = 1; i < motion.labels.size(); ++i) {
-            const std::string name = findCoordinateName(motion.labels[i]);
-            const bool shifts = name == "pelvis_tx" || name == "pelvis_ty";
-            walk.set(name, motion.rows[frame][i] * (shifts ? 1.0 : SimTK_DEGREE_TO_RADIAN));
-        }
+        setFrame(walk.model, motion, frame, walk.state);
+        walk.system.realize(walk.state, SimTK::Stage::Position);
         for (std::size_t i = 0; i < walk.description.muscles.size(); ++i) {
             const Muscle& muscle = walk.description.muscles[i];
             ASSERT_EQ(lengths.labels[i + 1], "/forceset/" + muscle.name + "|length");
@@ -70,15 +76,6 @@ TEST(DataWalk1018, HasTheReferenceLengthsOverTheMotion) {
     }
     std::cout << "18 muscles, 151 frames: worst " << worst << " m\n";
     EXPECT_LT(worst, 2e-7) << "1.5e-7 from offsets that the reference rounded to six digits";
-}
-
-/** Poses a model as a frame of a motion in degrees says. */
-void setFrame(const BuiltModel& model, const Table& motion, std::size_t frame, SimTK::State& state) {
-    for (std::size_t i = 1; i < motion.labels.size(); ++i) {
-        const std::string name = findCoordinateName(motion.labels[i]);
-        const bool shifts = name == "pelvis_tx" || name == "pelvis_ty";
-        model.setCoordinate(state, name, motion.rows[frame][i] * (shifts ? 1.0 : SimTK_DEGREE_TO_RADIAN));
-    }
 }
 
 TEST(DataWalk1018, CablesWithMovingAndConditionalPointsHaveTheReferenceLengths) {

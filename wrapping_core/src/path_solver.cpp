@@ -17,6 +17,21 @@ constexpr int kMaxCuspRepairs = 3;   ///< of one contact set search
 constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the other side
 constexpr int kMaxSaddles = 6;       ///< pushes, each twice the one before
 
+/** Calls visit(point, obstacle) with either end of its strand for every obstacle that takes part. */
+template <class Visitor>
+void visitStrandEnds(const PathProblem& problem, const PathPose& pose, Visitor visit) {
+    int first = 0;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!problem.getElement(e).isPoint() || !pose.hasElement(e)) continue;
+        for (int obstacle = first + 1; obstacle < e; ++obstacle) {
+            if (problem.getElement(obstacle).isPoint() || !pose.hasElement(obstacle)) continue;
+            visit(first, obstacle);
+            visit(e, obstacle);
+        }
+        first = e;
+    }
+}
+
 bool arrivesReversed(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
                      const StraightSegment& line) {
     const int e = line.toElement;
@@ -54,7 +69,8 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
     path.wasCold = false;
     path.fault = {};
     const bool isContinued = !path.isEmpty();
-    m_previous.contacts = path.contacts;  // what a search that fails leaves behind is no course to follow
+    if (m_options.allowsColdStart)
+        m_previous.contacts = path.contacts;  // what a search that fails leaves behind is no course to follow
     if (!isContinued) path.contacts.assign(problem.getNumElements(), ObstacleContact());
     switchOffEnclosing(problem, pose, path);
     // Without a start and without leave to look for one, the straight line is the start.
@@ -113,16 +129,7 @@ const PathPose& PathSolver::calcLiftedPose(const PathProblem& problem, const Pat
         isLifted = true;
         m_liftedPose.X_GE[point].p += (kEndHeight * size - height) * (X_GS.R * N_S);
     };
-    int firstOfStrand = 0;
-    for (int e = 0; e < problem.getNumElements(); ++e) {
-        if (!problem.getElement(e).isPoint() || !pose.hasElement(e)) continue;
-        for (int obstacle = firstOfStrand + 1; obstacle < e; ++obstacle) {
-            if (problem.getElement(obstacle).isPoint() || !pose.hasElement(obstacle)) continue;
-            lift(firstOfStrand, obstacle);
-            lift(e, obstacle);
-        }
-        firstOfStrand = e;
-    }
+    visitStrandEnds(problem, pose, lift);
     return isLifted ? m_liftedPose : pose;
 }
 
@@ -298,20 +305,13 @@ bool PathSolver::iterateContactSet(const PathProblem& problem, const PathPose& p
 
 /** Switches off the obstacles in which an end of their strand lies: no string lies over them. */
 void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
-    const auto isInside = [&](int point, int e) {
-        Vec3 N_S;
+    Vec3 N_S;
+    for (ObstacleContact& contact : path.contacts) contact.isSwitchedOff = false;
+    visitStrandEnds(problem, pose, [&](int point, int e) {
         const Surface& surface = *problem.getElement(e).surface;
         const double height = surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
-        return height < kContactTolerance * surface.getSize();
-    };
-    int first = 0;
-    for (int e = 0; e < problem.getNumElements(); ++e) {
-        if (!problem.getElement(e).isPoint() || !pose.hasElement(e)) continue;
-        for (int obstacle = first + 1; obstacle < e; ++obstacle)
-            if (!problem.getElement(obstacle).isPoint() && pose.hasElement(obstacle))
-                path.contacts[obstacle].isSwitchedOff = isInside(first, obstacle) || isInside(e, obstacle);
-        first = e;
-    }
+        if (height < kContactTolerance * surface.getSize()) path.contacts[e].isSwitchedOff = true;
+    });
 }
 
 /** Clearances of all lifted obstacles on the segments that pass them. */
