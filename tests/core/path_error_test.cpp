@@ -3,92 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "support/shapes.h"
+#include "support/random_chain.h"
 
 namespace tautline::testing {
 namespace {
 
 using Eigen::MatrixXd;
-
-const GeodesicOptions kGeodesics{1e-14, 5000};
-const double kStep = std::cbrt(1e-14);  // balances noise/h and h^2 of a central difference
-
-/** A chain of random geodesics on random shapes, far from any solution; '.' in `plan` is a via point. */
-class RandomChain {
-public:
-    RandomChain(const std::string& plan, unsigned seed) : m_random(seed) {
-        add(nullptr, 0);
-        for (std::size_t i = 0; i < plan.size(); ++i) {
-            std::size_t k = 0;
-            const std::vector<Shape> shapes = makeShapes();
-            while (plan[i] != '.' && shapes[k].name[0] != plan[i]) ++k;
-            add(plan[i] == '.' ? nullptr : &shapes[k], 8.0 * (i + 1));
-        }
-        add(nullptr, 8.0 * (plan.size() + 1));
-        m_chain.build(m_problem, m_pose, m_contacts);
-        EXPECT_TRUE(shootChain(m_problem, m_pose, kGeodesics, m_chain));
-    }
-
-    const Chain& getChain() const { return m_chain; }
-
-    MatrixXd calcJacobian() const {
-        BandedSolver band(kPathBandwidth, kPathBandwidth);
-        calcPathErrorJacobian(m_chain, band);
-        MatrixXd dense = MatrixXd::Zero(band.getSize(), band.getSize());
-        for (int row = 0; row < dense.rows(); ++row)
-            for (int col = 0; col < dense.cols(); ++col)
-                if (band.isInBand(row, col)) dense(row, col) = band.get(row, col);
-        return dense;
-    }
-
-    MatrixXd calcDifferences() const {
-        const int n = kVariations * static_cast<int>(m_chain.contacts.size());
-        MatrixXd differences(n, n);
-        for (int col = 0; col < n; ++col) {
-            const double h = kStep * (col % kVariations == 2 ? 1 : getSize(col / kVariations));
-            differences.col(col) = (calcError(col, h) - calcError(col, -h)) / (2 * h);
-        }
-        return differences;
-    }
-
-    double getSize(int contact) const {
-        return m_problem.getElement(m_chain.contacts[contact].element).surface->getSize();
-    }
-
-private:
-    void add(const Shape* shape, double at) {
-        const std::string name = std::to_string(m_problem.getNumElements());
-        m_contacts.emplace_back();
-        m_pose.X_GE.emplace_back(m_random.rotation(), Vec3(at, 0, 0) + m_random.vector(0.5));
-        if (!shape) {
-            m_problem.addPoint(name);
-            return;
-        }
-        m_problem.addObstacle(name, shape->surface);
-        m_contacts.back().isTouched = true;
-        m_contacts.back().start = makeRandomStart(*shape, m_random);
-        m_contacts.back().start.length = m_random.uniform(-1, 2) * shape->surface->getSize();
-    }
-
-    Eigen::VectorXd calcError(int unknown, double amount) const {
-        Chain varied = m_chain;
-        ChainContact& contact = varied.contacts[unknown / kVariations];
-        Vec4 correction = Vec4::Zero();
-        correction[unknown % kVariations] = amount;
-        contact.start = calcCorrectedStart(*m_problem.getElement(contact.element).surface, contact.start,
-                                           contact.geodesic.P, correction);
-        EXPECT_TRUE(shootChain(m_problem, m_pose, kGeodesics, varied));
-        std::vector<double> eps;
-        calcPathError(varied, eps);
-        return Eigen::Map<Eigen::VectorXd>(eps.data(), eps.size());
-    }
-
-    Random m_random;
-    PathProblem m_problem;
-    PathPose m_pose;
-    std::vector<ObstacleContact> m_contacts;
-    Chain m_chain;
-};
 
 // S sphere, C cylinder, E ellipsoid, F flat ellipsoid, T torus, . via point
 constexpr const char* kPlans[] = {"S", "C", "E", "F", "T", "SCEFT", "TT", "C.C", "S.TE..F", "ESTCFESTCF"};

@@ -14,6 +14,7 @@ constexpr double kLayingDepthTolerance = 0.02;  ///< crossings shallower than th
 constexpr std::size_t kNeighbours = 4;          ///< obstacles before and after a portion that its mesh allows for
 constexpr double kTouching = 0.01;              ///< height in sizes below which a node counts as resting on a surface
 constexpr int kSweepsPerMesh = 20;
+constexpr long kMaxHeightsPerElement = 500000;  ///< heights over surfaces that one laying may ask for: its time
 constexpr double kMaxRelaxation = 1.9;
 
 }  // namespace
@@ -22,7 +23,7 @@ void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const 
     m_nodes.clear();
     m_isFixed.clear();
     m_holds.clear();
-    m_numSweeps = 0;
+    m_numHeights = 0;
     std::size_t firstOpen = 0;          // holds whose strand has not met its end yet
     int lastFixed = 0, lastGuided = 0;  // lastGuided: the first hold whose surface the next edge may cross
     for (int e = 0; e < problem.getNumElements(); ++e) {
@@ -89,14 +90,14 @@ void ElasticString::relax(const PathProblem& problem, const PathPose&, double fi
     if (!(m_extent > 0)) return;
     double relaxation = 1;
     m_isAtRest = false;
-    for (int i = 0; i < maxSweeps; ++i) {
+    const long maxHeights = kMaxHeightsPerElement * problem.getNumElements();
+    for (int i = 0; i < maxSweeps && m_numHeights < maxHeights; ++i) {
         updatePortions(problem);
         if (i % kSweepsPerMesh == 0) {
             remesh(problem, fineness);
             updatePortions(problem);
         }
         const double move = sweep(problem, relaxation, i % 2 == 0);
-        ++m_numSweeps;
         // Plain steps first, while the string falls into place; then over-relaxation for the long waves.
         if (i > 2 * kSweepsPerMesh) relaxation = std::min(kMaxRelaxation, relaxation + 0.05);
         m_isAtRest = i > kSweepsPerMesh && move < tolerance;
@@ -234,6 +235,7 @@ void ElasticString::pushOut(const PathProblem& problem, int node, double& room) 
         const Surface& surface = *problem.getElement(hold.element).surface;
         Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
         const double height = surface.calcHeight(p_S, N_S), size = surface.getSize();
+        ++m_numHeights;
         room = std::min(room, size + std::max(0.0, height));
         if (height > 0) continue;
         if (height > -0.02 * size)
@@ -281,14 +283,6 @@ StringFault ElasticString::findFault(const PathProblem& problem) const {
     for (const Hold& hold : m_holds)
         if (!m_isAtRest && hold.touches()) return {StringFault::Kind::Sliding, hold.element, -1};
     return {};
-}
-
-void ElasticString::push(int element, const Vec3& by_G) {
-    for (const Hold& hold : m_holds) {
-        if (hold.element != element || !hold.touches()) continue;
-        for (int k = hold.first; k <= hold.last; ++k)
-            if (!m_isFixed[k]) m_nodes[k] += by_G;
-    }
 }
 
 void ElasticString::extractContacts(const PathProblem& problem, const PathPose& pose,

@@ -12,10 +12,9 @@ namespace tautline {
 namespace {
 
 constexpr double kEndHeight = 1e-7;  ///< of ends that lie on a surface, in its sizes
-constexpr double kSaddlePush = 0.1;  ///< first sideways push of a string that rests on a saddle, in sizes
-constexpr int kMaxCuspRepairs = 3;   ///< of one contact set search
+constexpr double kSaddlePush = 0.1;  ///< of an arc on a saddle, sideways, in sizes
+constexpr int kMaxRepairs = 4;       ///< of cusps and saddles, in the search from one start
 constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the other side
-constexpr int kMaxSaddles = 6;       ///< pushes, each twice the one before
 
 /** Calls visit(point, obstacle) with either end of its strand for every obstacle that takes part. */
 template <class Visitor>
@@ -51,9 +50,16 @@ bool hasCusp(const PathProblem& problem, const PathPose& pose, const PathSolutio
     return false;
 }
 
+/** Takes an earlier path again; what was spent since stays counted. */
+void goBack(const PathSolution& earlier, PathSolution& path) {
+    const int iterations = path.iterations, shots = path.shots;
+    path = earlier;
+    path.iterations = iterations, path.shots = shots;
+}
+
 }  // namespace
 
-PathSolver::PathSolver(const PathSolverOptions& options) : m_options(options), m_newton(options) {
+PathSolver::PathSolver(const PathSolverOptions& options) : m_options(options), m_newton(options), m_minimizer(options) {
     options.validate();
 }
 
@@ -99,14 +105,14 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     switchOffEnclosing(problem, pose, path);
     m_startLengths.resize(path.contacts.size());
     for (std::size_t e = 0; e < path.contacts.size(); ++e) m_startLengths[e] = path.contacts[e].start.length;
-    bool isConverged = m_newton.iterate(problem, pose, path);
+    bool isConverged = findStationaryPath(problem, pose, path);
     for (int repair = 0; isConverged && hasCusp(problem, pose, path); ++repair) {
-        if (repair == kMaxCuspRepairs) {
+        if (repair == kMaxRepairs) {
             isConverged = false;
             break;
         }
         turnCuspsRound(problem, pose, &m_startLengths, path);
-        isConverged = m_newton.iterate(problem, pose, path);
+        isConverged = findStationaryPath(problem, pose, path);
     }
     updateClearances(problem, pose, path);
     watchNearestPlaces(problem, pose, path);
@@ -138,11 +144,29 @@ bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, Pass
     for (int repair = 0; iterateContactSet(problem, pose, path); ++repair) {
         const PathVerification verification = verifyPath(problem, pose, path);
         if (verification.isMinimum()) return hasRightPassages(problem, pose, rule, path);
-        if (verification.condition != PathVerification::Condition::ReversedTangent || repair == kMaxCuspRepairs)
+        if (repair == kMaxRepairs) return false;
+        if (verification.condition == PathVerification::Condition::ReversedTangent)
+            turnCuspsRound(problem, pose, nullptr, path);
+        else if (verification.isStationaryOnly())
+            leaveSaddle(problem, pose, path);
+        else
             return false;
-        turnCuspsRound(problem, pose, nullptr, path);
     }
     return false;
+}
+
+/** Goes downhill to a path that is no saddle: from where Newton's method began, as a string would fall; if that too
+ends on a saddle, from there, pushed sideways at the contact that holds it. */
+void PathSolver::leaveSaddle(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    restoreStarts(path);
+    if (!m_minimizer.minimize(problem, pose, path)) return;
+    const PathVerification verification = verifyPath(problem, pose, path);
+    if (!verification.isStationaryOnly()) return;
+    const Surface& surface = *problem.getElement(verification.element).surface;
+    ObstacleContact& contact = path.contacts[verification.element];
+    contact.start =
+        calcCorrectedStart(surface, contact.start, contact.geodesic.P, Vec4(0, kSaddlePush * surface.getSize(), 0, 0));
+    m_minimizer.minimize(problem, pose, path);
 }
 
 /** Seen from a point at distance l along a line that meets its arc with e = -t, the tangent point that is meant lies
@@ -180,18 +204,15 @@ bool PathSolver::findColdPath(const PathProblem& problem, const PathPose& pose, 
         double fineness, tolerance;
         int maxSweeps;
     };
-    constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 6000}, {0.5, 1e-6, 6000}};
-    constexpr Level kFromSaddle = {0.5, 1e-6, 4000};  // it slides off slowly
+    constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 3000}};
     path.wasCold = true;
     path.fault = {};
     m_string.lay(problem, pose, guides);
     for (const Level& level : kLevels) {
-        if (tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, rule, path)) return true;
-        double push = kSaddlePush;
-        for (int i = 0; i < kMaxSaddles && leaveSaddle(problem, pose, push, path); ++i, push *= 2)
-            if (tightenString(problem, pose, kFromSaddle.fineness, kFromSaddle.tolerance, kFromSaddle.maxSweeps, rule,
-                              path))
-                return true;
+        m_string.relax(problem, pose, level.fineness, level.tolerance, level.maxSweeps);
+        for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
+        m_string.extractContacts(problem, pose, path.contacts);
+        if (findPath(problem, pose, rule, path)) return true;
     }
     path.fault = m_string.findFault(problem);
     return false;
@@ -215,8 +236,7 @@ bool PathSolver::findOtherSides(const PathProblem& problem, const PathPose& pose
             return true;
         guides[e] = hinted;
     }
-    std::swap(m_previous.iterations, path.iterations), std::swap(m_previous.shots, path.shots);
-    path = m_previous;
+    goBack(m_previous, path);
     return false;
 }
 
@@ -260,27 +280,29 @@ void PathSolver::updatePassages(const PathProblem& problem, const PathPose& pose
                });
 }
 
-/** @return true if Newton's method leads on from the relaxed string to a verified minimum */
-bool PathSolver::tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
-                               int maxSweeps, PassageRule rule, PathSolution& path) {
-    m_string.relax(problem, pose, fineness, tolerance, maxSweeps);
-    for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
-    m_string.extractContacts(problem, pose, path.contacts);
-    return findPath(problem, pose, rule, path);
+/** Newton's method from the starts in `path`, fast where they are near; where it leads to no path, the minimizer from
+the same starts. @return true if the path error vanishes */
+bool PathSolver::findStationaryPath(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    m_starts.resize(path.contacts.size());
+    for (std::size_t e = 0; e < path.contacts.size(); ++e) m_starts[e] = path.contacts[e].start;
+    if (m_newton.iterate(problem, pose, path)) return true;
+    restoreStarts(path);
+    return m_minimizer.minimize(problem, pose, path);
 }
 
-/** A string laid symmetrically stays on a saddle: where the path is one, it is pushed off sideways.
-@return false if the path is no saddle */
-bool PathSolver::leaveSaddle(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path) {
-    if (!(path.pathError <= m_options.pathErrorTolerance)) return false;
-    const PathVerification verification = verifyPath(problem, pose, path);
-    if (verification.condition != PathVerification::Condition::Unstable &&
-        verification.condition != PathVerification::Condition::ConjugatePoint)
-        return false;
-    const int e = verification.element;
-    m_string.push(e,
-                  push * problem.getElement(e).surface->getSize() * (pose.X_GE[e].R * path.contacts[e].geodesic.P.B));
+/** As above; where that path turns back at an arc, the minimizer's takes its place if it does not. */
+bool PathSolver::findPathOfContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    if (!findStationaryPath(problem, pose, path)) return false;
+    if (!hasCusp(problem, pose, path)) return true;
+    m_cusp = path;
+    restoreStarts(path);
+    if (!m_minimizer.minimize(problem, pose, path) || hasCusp(problem, pose, path)) goBack(m_cusp, path);
     return true;
+}
+
+/** The starts from which the last contact set was solved. */
+void PathSolver::restoreStarts(PathSolution& path) const {
+    for (std::size_t e = 0; e < path.contacts.size(); ++e) path.contacts[e].start = m_starts[e];
 }
 
 /** Newton on one contact set, then lift what has negative length and touch what is penetrated, one at a
@@ -289,7 +311,7 @@ to no end. @return true if converged so */
 bool PathSolver::iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const int maxChanges = 3 * problem.getNumElements() + 10;
     for (int change = 0; change <= maxChanges; ++change) {
-        const bool isConverged = m_newton.iterate(problem, pose, path);
+        const bool isConverged = findPathOfContacts(problem, pose, path);
         updateClearances(problem, pose, path);
         if (!isConverged) return false;
         int worst = findWorstContact(problem, pose, path);

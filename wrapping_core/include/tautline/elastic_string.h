@@ -15,11 +15,9 @@ public:
     void lay(const PathProblem& problem, const PathPose& pose, const StartGuides& guides);
 
     /** Relaxes by projected successive over-relaxation until nodes move less than `tolerance` of their
-    spacing per sweep, or `maxSweeps`. @param fineness   spacing of nodes relative to the default */
+    spacing per sweep, or `maxSweeps`, or until
+    this laying has cost what it may. @param fineness   spacing of nodes relative to the default */
     void relax(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance, int maxSweeps);
-
-    /** Moves the nodes that touch an element, to free a string from a saddle. @param by_G   in ground [m] */
-    void push(int element, const Vec3& by_G);
 
     /** Contact set, geodesic starts (touched) and switched-off obstacles as the string shows them. */
     void extractContacts(const PathProblem& problem, const PathPose& pose,
@@ -29,7 +27,6 @@ public:
     StringFault findFault(const PathProblem& problem) const;
 
     const std::vector<Vec3>& getNodes() const { return m_nodes; }
-    int getNumSweeps() const { return m_numSweeps; }
 
 private:
     /** An obstacle's hold on the string; node indices, -1 where it does not touch. */
@@ -61,8 +58,8 @@ private:
     std::vector<double> m_stiffness;  ///< of edge k between nodes k and k + 1
     std::vector<double> m_room;       ///< per node: size of the nearest obstacle plus distance to it [m]
     std::vector<Hold> m_holds;
-    double m_extent = 0;  ///< length of the string when laid [m]
-    int m_numSweeps = 0;
+    double m_extent = 0;     ///< length of the string when laid [m]
+    long m_numHeights = 0;   ///< asked for since it was laid
     bool m_isAtRest = true;  ///< the last relaxation came to its tolerance
 };
 

@@ -34,13 +34,14 @@ public:
         derived().calcPartials(edge, p);
         if (d[0] == 0 && d[1] == 0) return {p.col(0), p.col(3), p.col(1), p.col(6), p.col(4), p.col(2)};
         const Mat3 forU = calcExtension(d[0], 0), forV = calcExtension(d[1], 1);
-        const auto combine = [&](int k, int l) {
-            Vec3 sum = Vec3::Zero();
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) sum += forU(k, i) * forV(l, j) * p.col(3 * i + j);
-            return sum;
+        // Column i of inV(k): the k-th derivative by v of x^(i), the i-th one by u at the edge.
+        const auto inV = [&](int k) {
+            Mat3 columns;
+            for (int i = 0; i < 3; ++i) columns.col(i) = p.middleCols<3>(3 * i) * forV.row(k).transpose();
+            return columns;
         };
-        return {combine(0, 0), combine(1, 0), combine(0, 1), combine(2, 0), combine(1, 1), combine(0, 2)};
+        const Mat3 x = inV(0) * forU.transpose(), xv = inV(1) * forU.transpose();
+        return {x.col(0), x.col(1), xv.col(0), x.col(2), xv.col(1), inV(2) * forU.row(0).transpose()};
     }
 
     Vec2 calcNearbyParameters(const Vec3& p_S, int) const {

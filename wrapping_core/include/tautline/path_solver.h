@@ -1,5 +1,6 @@
 #pragma once
 #include "tautline/elastic_string.h"
+#include "tautline/length_minimizer.h"
 #include "tautline/path_newton.h"
 #include "tautline/path_problem.h"
 #include "tautline/path_solution.h"
@@ -33,9 +34,7 @@ private:
     const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
     void turnCuspsRound(const PathProblem& problem, const PathPose& pose, const std::vector<double>* startLengths,
                         PathSolution& path) const;
-    bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
-                       int maxSweeps, PassageRule rule, PathSolution& path);
-    bool leaveSaddle(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
+    void leaveSaddle(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool findPath(const PathProblem& problem, const PathPose& pose, PassageRule rule, PathSolution& path);
     bool findColdPath(const PathProblem& problem, const PathPose& pose, const StartGuides& guides, PassageRule rule,
                       PathSolution& path);
@@ -43,6 +42,9 @@ private:
     bool hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule,
                           const PathSolution& path) const;
     void updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) const;
+    bool findStationaryPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    bool findPathOfContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    void restoreStarts(PathSolution& path) const;
     bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     int findWorstContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) const;
     void watchNearestPlaces(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
@@ -53,8 +55,10 @@ private:
     PathSolverOptions m_options;
     ElasticString m_string;
     PathNewton m_newton;
-    std::vector<double> m_startLengths;  ///< of the arcs by element, while contacts are kept
-    PathSolution m_previous;
+    LengthMinimizer m_minimizer;
+    std::vector<GeodesicStart> m_starts;  ///< of a contact set, by element
+    std::vector<double> m_startLengths;   ///< of the arcs by element, while contacts are kept
+    PathSolution m_previous, m_cusp;
     PathPose m_liftedPose;
 };
 
