@@ -1,14 +1,14 @@
 #include "tautline/simbody/cable_decorations.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tautline/cylinder.h"
 #include "tautline/ellipsoid.h"
 #include "tautline/error.h"
-#include "tautline/simbody/cable.h"
-#include "tautline/simbody/contact_geometry_surface.h"
 #include "tautline/simbody/conversions.h"
 #include "tautline/sphere.h"
+#include "tautline/surface_mesh.h"
 #include "tautline/torus.h"
 
 namespace tautline {
@@ -25,26 +25,17 @@ Transform calcCylinderPose(const Transform& X_BS) {
     return X_BS * Transform(SimTK::Rotation(SimTK::Pi / 2, SimTK::XAxis));
 }
 
-/** Simbody has no picture of a height map. */
-DecorativeGeometry calcDecoration(const SimTK::ContactGeometry& geometry) {
-    using HeightMap = SimTK::ContactGeometry::SmoothHeightMap;
-    if (!HeightMap::isInstance(geometry)) return geometry.createDecorativeGeometry();
-    return SimTK::DecorativeMesh(HeightMap::getAs(geometry).getBicubicSurface().createPolygonalMesh());
+SimTK::PolygonalMesh toPolygonalMesh(const SurfaceMesh& facets) {
+    SimTK::PolygonalMesh mesh;
+    for (const Vec3& point : facets.points) mesh.addVertex(toSimTK(point));
+    for (const std::array<int, 4>& face : facets.faces) mesh.addFace(Array_<int>(face.begin(), face.end()));
+    return mesh;
 }
 
-void addSurface(const Surface& surface, const Transform& X_BS, SimTK::Real halfLength,
-                const std::function<void(DecorativeGeometry)>& add) {
-    if (const auto* sphere = dynamic_cast<const Sphere*>(&surface))
-        add(SimTK::DecorativeSphere(sphere->getRadius()).setTransform(X_BS));
-    else if (const auto* cylinder = dynamic_cast<const Cylinder*>(&surface))
-        add(SimTK::DecorativeCylinder(cylinder->getRadius(), halfLength * cylinder->getRadius())
-                .setTransform(calcCylinderPose(X_BS)));
-    else if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(&surface))
-        add(SimTK::DecorativeEllipsoid(toSimTK(ellipsoid->getSemiAxes())).setTransform(X_BS));
-    else if (const auto* torus = dynamic_cast<const Torus*>(&surface))
-        add(SimTK::DecorativeTorus(torus->getRingRadius(), torus->getTubeRadius()).setTransform(X_BS));
-    else if (const auto* wrapped = dynamic_cast<const ContactGeometrySurface*>(&surface))
-        add(calcDecoration(wrapped->getContactGeometry()).setTransform(X_BS));
+/** Where the cable touches an obstacle, in S. */
+std::vector<Vec3> getTouchedPoints(const ObstacleContact& contact) {
+    if (!contact.isTouched) return {};
+    return {contact.geodesic.P.x, contact.geodesic.Q.x};
 }
 
 /** Frames at the ends of an arc, if there is one. */
@@ -86,9 +77,60 @@ CableDecorations& CableDecorations::setContactFrameSize(SimTK::Real length) {
     return *this;
 }
 
-CableDecorations& CableDecorations::setCylinderHalfLength(SimTK::Real radii) {
-    m_cylinderHalfLength = radii;
+CableDecorations& CableDecorations::setExtent(SimTK::Real sizes) {
+    require(std::isfinite(sizes) && sizes > 0, "cable decorations: the extent of surfaces without end must be ",
+            "positive and finite, but is ", sizes);
+    m_extent = sizes;
+    m_pictures.clear();
     return *this;
+}
+
+bool CableDecorations::Picture::covers(const std::vector<Vec3>& points_S) const {
+    // Facets may end half a facet before the cube does.
+    constexpr SimTK::Real kMargin = 0.2;
+    const auto isInside = [&](const Vec3& p) {
+        return (p - toEigen(centre_S)).lpNorm<Eigen::Infinity>() <= (1 - kMargin) * extent;
+    };
+    return !isCut || std::all_of(points_S.begin(), points_S.end(), isInside);
+}
+
+const SimTK::PolygonalMesh& CableDecorations::findMesh(const std::shared_ptr<const Surface>& surface,
+                                                       const std::vector<Vec3>& touched_S,
+                                                       const std::vector<Vec3>& near_S) {
+    constexpr SimTK::Real kGrowth = 1.5;  // so that a contact that runs away has a new mesh laid only now and then
+    Picture& picture = m_pictures[surface];
+    if (picture.extent > 0 && picture.covers(touched_S)) return picture.mesh;
+    if (picture.extent == 0) picture.extent = m_extent * surface->getSize();
+    do {
+        for (const Vec3& p : picture.isCut ? touched_S : std::vector<Vec3>())
+            picture.extent =
+                std::max(picture.extent, kGrowth * (p - toEigen(picture.centre_S)).lpNorm<Eigen::Infinity>());
+        const SurfaceMesh facets = calcSurfaceMesh(*surface, picture.extent, near_S);
+        picture.mesh = toPolygonalMesh(facets);
+        picture.centre_S = toSimTK(facets.centre), picture.isCut = facets.isCut;
+    } while (!picture.covers(touched_S));
+    return picture.mesh;
+}
+
+DecorativeGeometry CableDecorations::calcPicture(const Cable& cable, CableElementIndex obstacle, const State& state) {
+    const std::shared_ptr<const Surface> surface = cable.getSurface(obstacle);
+    const Transform& X_BS = cable.getElementFrame(obstacle);
+    const ObstacleContact& contact = cable.getSolution(state).contacts[obstacle];
+    const std::vector<Vec3> touched_S = getTouchedPoints(contact);
+    if (const auto* sphere = dynamic_cast<const Sphere*>(surface.get()))
+        return SimTK::DecorativeSphere(sphere->getRadius()).setTransform(X_BS);
+    if (const auto* cylinder = dynamic_cast<const Cylinder*>(surface.get())) {
+        SimTK::Real halfLength = m_extent * cylinder->getRadius();
+        for (const Vec3& p : touched_S) halfLength = std::max(halfLength, std::abs(p.z()));
+        return SimTK::DecorativeCylinder(cylinder->getRadius(), halfLength).setTransform(calcCylinderPose(X_BS));
+    }
+    if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(surface.get()))
+        return SimTK::DecorativeEllipsoid(toSimTK(ellipsoid->getSemiAxes())).setTransform(X_BS);
+    if (const auto* torus = dynamic_cast<const Torus*>(surface.get()))
+        return SimTK::DecorativeTorus(torus->getRingRadius(), torus->getTubeRadius()).setTransform(X_BS);
+    std::vector<Vec3> near_S = touched_S;
+    if (contact.clearance.C.p.allFinite()) near_S.push_back(contact.clearance.C.p);
+    return SimTK::DecorativeMesh(findMesh(surface, touched_S, near_S)).setTransform(X_BS);
 }
 
 void CableDecorations::generateDecorations(const State& state, Array_<DecorativeGeometry>& geometry) {
@@ -101,11 +143,8 @@ void CableDecorations::generateDecorations(const State& state, Array_<Decorative
             if (!cable.isObstacle(e)) continue;
             const SimTK::Vec3& color = cable.isTouched(state, e) ? m_touchedSurfaceColor : m_surfaceColor;
             if (m_contactFrameSize > 0) addContactFrames(cable, state, e, m_contactFrameSize, geometry);
-            addSurface(*cable.getSurface(e), cable.getElementFrame(e), m_cylinderHalfLength,
-                       [&](DecorativeGeometry shape) {
-                           shape.setBodyId(cable.getElementBody(e));
-                           geometry.push_back(shape.setColor(color).setOpacity(0.5));
-                       });
+            geometry.push_back(
+                calcPicture(cable, e, state).setBodyId(cable.getElementBody(e)).setColor(color).setOpacity(0.5));
         }
     }
 }
