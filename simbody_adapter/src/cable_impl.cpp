@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "cable_subsystem_impl.h"
 #include "contact_event_handler.h"
@@ -351,6 +352,10 @@ PathStatus CableImpl::calcStatus(const State& state) const {
 void CableImpl::countStep(const State& state) const {
     ++m_counters.steps;
     if (calcStatus(state) != PathStatus::Solved) ++m_counters.degradedSteps;
+    const Real error = getPath(state, "CableSubsystem::countStep()").pathError;
+    double largest = m_counters.largestPathError;
+    while (!(error <= largest) && !std::isnan(largest))
+        if (m_counters.largestPathError.compare_exchange_weak(largest, error)) break;
 }
 
 CableStatistics CableImpl::getStatistics() const {
@@ -363,6 +368,7 @@ CableStatistics CableImpl::getStatistics() const {
     result.numContactEvents = m_counters.events;
     result.numSteps = m_counters.steps;
     result.numDegradedSteps = m_counters.degradedSteps;
+    result.largestPathError = m_counters.largestPathError;
     result.numHolesLeft = m_counters.holesLeft;
     result.seconds = 1e-9 * static_cast<double>(m_counters.nanoseconds);
     return result;
@@ -374,6 +380,7 @@ void CableImpl::resetStatistics() const {
           &m_counters.events, &m_counters.holesLeft, &m_counters.nanoseconds, &m_counters.steps,
           &m_counters.degradedSteps})
         *counter = 0;
+    m_counters.largestPathError = 0;
 }
 
 }  // namespace tautline

@@ -104,6 +104,7 @@ private:
     struct Counters {
         std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, holesLeft{0},
             nanoseconds{0}, steps{0}, degradedSteps{0};
+        std::atomic<double> largestPathError{0};
     };
     mutable Counters m_counters;
 };

@@ -177,9 +177,11 @@ TEST(CableStages, AcceptedStepsThatAreNoSolutionAreCounted) {
     SimTK::TimeStepper stepper(scene.system, integrator);
     stepper.setReportAllSignificantStates(true);
     stepper.initialize(state);
+    Real largestError = 0;
     while (integrator.getTime() < 3) {
         stepper.stepTo(3);
         scene.cables.countStep(integrator.getState());
+        largestError = std::max(largestError, cable.getPathError(integrator.getState()));
     }
     const CableStatistics statistics = cable.getStatistics();
     EXPECT_GE(statistics.numSteps, 300);
@@ -188,6 +190,11 @@ TEST(CableStages, AcceptedStepsThatAreNoSolutionAreCounted) {
     EXPECT_NEAR(Real(statistics.numDegradedSteps) / Real(statistics.numSteps), share, 0.02);
     EXPECT_EQ(clear.getStatistics().numSteps, statistics.numSteps);
     EXPECT_EQ(clear.getStatistics().numDegradedSteps, 0);
+    EXPECT_EQ(statistics.largestPathError, largestError);
+    EXPECT_LE(clear.getStatistics().largestPathError, clear.getOptions().pathErrorTolerance);
+    clear.resetStatistics();
+    EXPECT_EQ(clear.getStatistics().numSteps, 0);
+    EXPECT_EQ(clear.getStatistics().largestPathError, 0);
 }
 
 TEST(CableStages, StatusIsJudgedInFullWithContactsFixed) {

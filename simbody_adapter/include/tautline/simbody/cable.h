@@ -38,15 +38,16 @@ struct ContactEvent {
 /** What a cable's solves have cost since construction or the last reset, over all States and threads. */
 struct CableStatistics {
     long numSolves = 0;
-    long numColdSolves = 0;     ///< started anew instead of continued
-    long numFailures = 0;       ///< ended as NotConverged
-    long numIterations = 0;     ///< of Newton's method
-    long numShots = 0;          ///< geodesics shot
-    long numContactEvents = 0;  ///< contacts made or lost by the event handlers
-    long numHolesLeft = 0;      ///< rings that the cable went through in a step
-    double seconds = 0;         ///< spent in the solver
-    long numSteps = 0;          ///< accepted steps that CableSubsystem::countStep() was told of
-    long numDegradedSteps = 0;  ///< of those, with a status other than Solved: Cable::calcStatus()
+    long numColdSolves = 0;       ///< started anew instead of continued
+    long numFailures = 0;         ///< ended as NotConverged
+    long numIterations = 0;       ///< of Newton's method
+    long numShots = 0;            ///< geodesics shot
+    long numContactEvents = 0;    ///< contacts made or lost by the event handlers
+    long numHolesLeft = 0;        ///< rings that the cable went through in a step
+    double seconds = 0;           ///< spent in the solver
+    long numSteps = 0;            ///< accepted steps that CableSubsystem::countStep() was told of
+    long numDegradedSteps = 0;    ///< of those, with a status other than Solved: Cable::calcStatus()
+    double largestPathError = 0;  ///< in those steps: Cable::getPathError(), NaN if it once was that
 };
 
 /** A taut, frictionless, massless string from a point on one body over via points and smooth obstacles on
