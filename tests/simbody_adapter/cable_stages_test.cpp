@@ -75,6 +75,7 @@ TEST(CableStages, AskedTooEarlyThrowsTheStageError) {
     }
     const std::map<std::string, Query> velocityQueries = {
         {"Cable::getLengthRate()", [&](const State& s) { scene.cable.getLengthRate(s); }},
+        {"Cable::getLengthAccelerationBias()", [&](const State& s) { scene.cable.getLengthAccelerationBias(s); }},
         {"Cable::calcPower()", [&](const State& s) { scene.cable.calcPower(s, 1); }}};
     scene.system.realize(state, Stage::Position);
     for (const auto& [name, query] : makePositionQueries(scene))

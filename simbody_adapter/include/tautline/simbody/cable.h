@@ -133,6 +133,8 @@ public:
     SimTK::MobilizedBodyIndex getElementBody(CableElementIndex element) const;
     /** X_BE: the station of a point, the pose of a surface. Of a moving point not its present one. */
     SimTK::Transform getElementFrame(CableElementIndex element) const;
+    /** Whether there is a point that moves on its body, or holds the cable only under a condition. */
+    bool hasMovingPoints() const;
     /** Null for points. */
     std::shared_ptr<const Surface> getSurface(CableElementIndex element) const;
     ///@}
@@ -224,6 +226,10 @@ public:
     ///@{
     /** Exact dL/dt [m/s]. */
     SimTK::Real getLengthRate(const SimTK::State& state) const;
+    /** What of the length's second derivative comes from the velocities alone [m/s^2]: d2L/dt2 = this - sum F_B . A_GB
+    with the unit forces F_B and the bodies' accelerations. It jumps where contact changes. A cable with moving points
+    has none: an error. */
+    SimTK::Real getLengthAccelerationBias(const SimTK::State& state) const;
     /** Power of the forces that a tension [N] puts on the bodies [W]: -tension * length rate. */
     SimTK::Real calcPower(const SimTK::State& state, SimTK::Real tension) const;
     ///@}
