@@ -115,7 +115,7 @@ TEST_P(SurfaceMeshTest, FacetsCoverTheSurface) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SurfaceMeshTest, ::testing::ValuesIn(makeSurfaceCases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& one) { return one.param.name; });
 
 /** Chords lose h^2/6r^2 of the area at most: h = r/6. */
 TEST(SurfaceMesh, AreaAndGenusOfClosedShapes) {
@@ -175,6 +175,19 @@ TEST(SurfaceMesh, SurfacesAwayFromTheOriginAreFound) {
     const double area = 4 * kPi * 0.25;
     EXPECT_NEAR(calcArea(calcSurfaceMesh(spheres, 1)) / area, 1, 0.02);
     EXPECT_NEAR(calcArea(calcSurfaceMesh(spheres, 1, {Vec3(9.4, 0.2, 0)})) / area, 2, 0.04);
+}
+
+/** Patches in places of a body's frame far from its origin, where only their continuations are near it. */
+TEST(SurfaceMesh, PatchesAwayFromTheOriginAreFound) {
+    for (const Vec2& corner : {Vec2(10, 12), Vec2(-40, 0.5), Vec2(0.2, -7)}) {
+        const int n = 7;
+        Eigen::MatrixXd heights(n, n);
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) heights(i, j) = 3 + calcBumps(-1 + 2.0 * i / (n - 1), -1 + 2.0 * j / (n - 1));
+        const BSplinePatch patch = BSplinePatch::interpolateHeights({corner, corner + Vec2::Constant(2)}, heights);
+        const SurfaceMesh mesh = calcSurfaceMesh(patch, 1);
+        EXPECT_NEAR(calcArea(mesh) / calcArea(calcSurfaceMesh(makeBumpPatch(n), 1)), 1, 0.01) << corner.transpose();
+    }
 }
 
 TEST(SurfaceMesh, FacetsAreWiderWhereThereWouldBeTooMany) {

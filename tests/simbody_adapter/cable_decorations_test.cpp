@@ -153,14 +153,16 @@ TEST(CableDecorationsTest, EverySurfaceOfTheProjectIsDrawn) {
 TEST(CableDecorationsTest, AnySmoothGeometryIsDrawn) {
     SimTK::Matrix f(4, 4, Real(0));
     f(1, 1) = 0.1;
-    const SimTK::BicubicSurface surface(SimTK::Vec2(-1, -1), SimTK::Vec2(0.5, 0.5), f);
+    const SimTK::BicubicSurface surface(SimTK::Vec2(-1, -1), SimTK::Vec2(0.5, 0.5), f),
+        away(SimTK::Vec2(7, -6), SimTK::Vec2(0.5, 0.5), f);
     using Geometry = SimTK::ContactGeometry;
     const std::pair<Geometry, Real> geometries[] = {{Geometry::Sphere(0.1), 0},
                                                     {Geometry::Cylinder(0.1), 0},
                                                     {Geometry::Ellipsoid(SimTK::Vec3(0.1, 0.2, 0.3)), 0},
                                                     {Geometry::Torus(0.5, 0.1), 0},
                                                     {Geometry::HalfSpace(), 0.3},
-                                                    {Geometry::SmoothHeightMap(surface), 0}};
+                                                    {Geometry::SmoothHeightMap(surface), 0},
+                                                    {Geometry::SmoothHeightMap(away), 0}};
     for (const auto& [geometry, size] : geometries) {
         SCOPED_TRACE(geometry.getTypeId());
         OneObstacleScene scene(std::make_shared<ContactGeometrySurface>(geometry, size), Transform(),
@@ -172,8 +174,10 @@ TEST(CableDecorationsTest, AnySmoothGeometryIsDrawn) {
         for (int i = 0; i < mesh.getNumVertices(); ++i) {
             SimTK::Vec3 p = mesh.getVertexPosition(i);
             // A height map is not defined one rounding beyond its edge.
-            if (Geometry::SmoothHeightMap::isInstance(geometry))
-                for (const int k : {0, 1}) p[k] = SimTK::clamp(-1.0, p[k], 0.5);
+            if (Geometry::SmoothHeightMap::isInstance(geometry)) {
+                const SimTK::BicubicSurface& map = Geometry::SmoothHeightMap::getAs(geometry).getBicubicSurface();
+                for (const int k : {0, 1}) p[k] = SimTK::clamp(map.getMinXY()[k], p[k], map.getMaxXY()[k]);
+            }
             EXPECT_NEAR(geometry.calcSurfaceValue(p), 0, 1e-10);
         }
     }

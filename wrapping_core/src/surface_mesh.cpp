@@ -199,6 +199,28 @@ private:
     std::priority_queue<std::pair<int, Index>> m_front;  ///< by distance from the centre, in cells
 };
 
+/** From beyond the domain's edge, where the surface goes on, along the surface up the margin's slope. Coordinates have
+a margin that is linear in them, so that few steps are needed.
+@return false if the domain was not reached */
+bool moveIntoDomain(const Surface& surface, SurfacePoint& point) {
+    constexpr int kMaxSteps = 100;
+    const double size = surface.getSize(), difference = 1e-4 * size, longest = 10 * size;
+    for (int i = 0; i < kMaxSteps && !surface.isInDomain(point); ++i) {
+        const double margin = surface.calcDomainMargin(point);
+        if (!std::isfinite(margin)) return false;
+        const DarbouxFrame frame = surface.calcFrame(point, Vec3(1, 0.3, 0.2));
+        const auto calcSlope = [&](const Vec3& axis) {
+            return (surface.calcDomainMargin(surface.calcDisplacedPoint(point, difference * axis)) - margin) /
+                   difference;
+        };
+        const Vec3 slope = calcSlope(frame.t) * frame.t + calcSlope(frame.B) * frame.B;
+        const double needed = 1.1 * std::abs(margin) / slope.norm();
+        if (!std::isfinite(needed)) return false;
+        point = surface.calcDisplacedPoint(point, std::min(needed, longest) * slope.normalized());
+    }
+    return surface.isInDomain(point);
+}
+
 /** Points of the surface within its domain, that nearest to the origin of S first where it can be found. */
 std::vector<Vec3> findSeeds(const Surface& surface, const std::vector<Vec3>& near_S) {
     const double size = surface.getSize();
@@ -208,11 +230,11 @@ std::vector<Vec3> findSeeds(const Surface& surface, const std::vector<Vec3>& nea
     starts.insert(starts.end(), near_S.begin(), near_S.end());
     std::vector<Vec3> seeds;
     for (const Vec3& start : starts) {
-        const SurfacePoint point = surface.findSurfacePoint(start);
+        SurfacePoint point = surface.findSurfacePoint(start);
         Vec3 N;
         // A search that did not arrive leaves a height far above rounding.
         if (!point.p.allFinite() || !(std::abs(surface.calcHeight(point.p, N)) < 1e-6 * size)) continue;
-        if (surface.isInDomain(point)) seeds.push_back(point.p);
+        if (moveIntoDomain(surface, point)) seeds.push_back(point.p);
     }
     return seeds;
 }

@@ -16,11 +16,18 @@ struct SurfaceMesh {
 };
 
 /** Covers a surface with facets about a sixth of its size wide (of `extent`, if that is less), wider where that would
-be too many: (1) every point lies on the surface and in its domain; (2) a surface without edge that stays within 1000
-sizes of where it is met first is covered whole, every edge being shared by two facets; any other as far as the cube of
-half side `extent` about that place, and its domain, reach; (3) every facet faces outward. A part thinner than a facet
-may be missing, and pieces that are not connected are drawn if they are met from the origin of S, from a point a size
-away from it along an axis, or from one of `near_S`.
+be too many.
+
+(1) Every point lies on the surface and in its domain.
+
+(2) A surface without edge that stays within 1000 sizes of where it is met first is covered whole, every edge being
+shared by two facets; any other as far as its domain reaches and the cube of half side `extent` about that place.
+
+(3) Every facet faces outward.
+
+A part thinner than a facet may be missing. Pieces that are not connected are drawn if they are met from the origin of
+S, from a point a size away from it along an axis, or from one of `near_S`, and where that leads beyond the domain's
+edge, up the domain's margin from there.
 @param extent   [m], positive
 @param near_S   further points from which the surface is sought, such as contact points */
 SurfaceMesh calcSurfaceMesh(const Surface& surface, double extent, const std::vector<Vec3>& near_S = {});
