@@ -85,38 +85,26 @@ CableDecorations& CableDecorations::setExtent(SimTK::Real sizes) {
     return *this;
 }
 
-bool CableDecorations::Picture::covers(const std::vector<Vec3>& points_S) const {
-    // Facets may end half a facet before the cube does.
-    constexpr SimTK::Real kMargin = 0.2;
-    const auto isInside = [&](const Vec3& p) {
-        return (p - toEigen(centre_S)).lpNorm<Eigen::Infinity>() <= (1 - kMargin) * extent;
-    };
-    return !isCut || std::all_of(points_S.begin(), points_S.end(), isInside);
-}
-
+/** A new mesh is laid where the cable touches the surface beyond what is drawn. */
 const SimTK::PolygonalMesh& CableDecorations::findMesh(const std::shared_ptr<const Surface>& surface,
-                                                       const std::vector<Vec3>& touched_S,
-                                                       const std::vector<Vec3>& near_S) {
-    constexpr SimTK::Real kGrowth = 1.5;  // so that a contact that runs away has a new mesh laid only now and then
-    Picture& picture = m_pictures[surface];
-    if (picture.extent > 0 && picture.covers(touched_S)) return picture.mesh;
-    if (picture.extent == 0) picture.extent = m_extent * surface->getSize();
-    do {
-        for (const Vec3& p : picture.isCut ? touched_S : std::vector<Vec3>())
-            picture.extent =
-                std::max(picture.extent, kGrowth * (p - toEigen(picture.centre_S)).lpNorm<Eigen::Infinity>());
-        const SurfaceMesh facets = calcSurfaceMesh(*surface, picture.extent, near_S);
+                                                       const std::vector<Vec3>& touched_S) {
+    const auto [found, isNew] = m_pictures.try_emplace(surface);
+    Picture& picture = found->second;
+    const auto isDrawn = [&picture](const Vec3& p) { return picture.box.contains(p); };
+    if (isNew || !std::all_of(touched_S.begin(), touched_S.end(), isDrawn)) {
+        // Together with those before: obstacles may share the surface.
+        picture.touched_S.insert(picture.touched_S.end(), touched_S.begin(), touched_S.end());
+        const SurfaceMesh facets = calcSurfaceMesh(*surface, m_extent * surface->getSize(), picture.touched_S);
         picture.mesh = toPolygonalMesh(facets);
-        picture.centre_S = toSimTK(facets.centre), picture.isCut = facets.isCut;
-    } while (!picture.covers(touched_S));
+        picture.box = facets.box;
+    }
     return picture.mesh;
 }
 
 DecorativeGeometry CableDecorations::calcPicture(const Cable& cable, CableElementIndex obstacle, const State& state) {
     const std::shared_ptr<const Surface> surface = cable.getSurface(obstacle);
     const Transform& X_BS = cable.getElementFrame(obstacle);
-    const ObstacleContact& contact = cable.getSolution(state).contacts[obstacle];
-    const std::vector<Vec3> touched_S = getTouchedPoints(contact);
+    const std::vector<Vec3> touched_S = getTouchedPoints(cable.getSolution(state).contacts[obstacle]);
     if (const auto* sphere = dynamic_cast<const Sphere*>(surface.get()))
         return SimTK::DecorativeSphere(sphere->getRadius()).setTransform(X_BS);
     if (const auto* cylinder = dynamic_cast<const Cylinder*>(surface.get())) {
@@ -128,9 +116,7 @@ DecorativeGeometry CableDecorations::calcPicture(const Cable& cable, CableElemen
         return SimTK::DecorativeEllipsoid(toSimTK(ellipsoid->getSemiAxes())).setTransform(X_BS);
     if (const auto* torus = dynamic_cast<const Torus*>(surface.get()))
         return SimTK::DecorativeTorus(torus->getRingRadius(), torus->getTubeRadius()).setTransform(X_BS);
-    std::vector<Vec3> near_S = touched_S;
-    if (contact.clearance.C.p.allFinite()) near_S.push_back(contact.clearance.C.p);
-    return SimTK::DecorativeMesh(findMesh(surface, touched_S, near_S)).setTransform(X_BS);
+    return SimTK::DecorativeMesh(findMesh(surface, touched_S)).setTransform(X_BS);
 }
 
 void CableDecorations::generateDecorations(const State& state, Array_<DecorativeGeometry>& geometry) {

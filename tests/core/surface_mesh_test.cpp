@@ -106,8 +106,7 @@ TEST_P(SurfaceMeshTest, FacetsCoverTheSurface) {
     int numCovered = 0;
     for (const SurfaceLawSample& sample : samples) {
         const SurfacePoint point = surface.findSurfacePoint(sample.p_S);
-        const bool isBeyond = (point.p - mesh.centre).lpNorm<Eigen::Infinity>() > 2.7 * getSize();
-        if (!surface.isInDomain(point) || (mesh.isCut && isBeyond)) continue;
+        if (!surface.isInDomain(point) || !mesh.box.contains(point.p)) continue;
         ++numCovered;
         EXPECT_LT(calcDistance(mesh, point.p), 0.3 * width) << point.p.transpose();
     }
@@ -134,15 +133,20 @@ TEST(SurfaceMesh, AreaAndGenusOfClosedShapes) {
 TEST(SurfaceMesh, SurfacesWithoutEndReachAsFarAsAsked) {
     const SurfaceMesh plane = calcSurfaceMesh(Plane(0.2), 1.2);
     EXPECT_TRUE(plane.isCut);
-    EXPECT_NEAR(calcArea(plane), 2.4 * 2.4, 1e-12);
+    EXPECT_NEAR(calcArea(plane), 2.8 * 2.8, 1e-12);  // 1.2 beyond what is met from points 0.2 from the origin
+    const SurfaceMesh longer = calcSurfaceMesh(Plane(0.2), 1.2, {Vec3(5, 0, 0.3)});
+    EXPECT_NEAR(calcArea(longer), (1.4 + 6.2) * 2.8, 0.1);
+    EXPECT_TRUE(longer.box.contains(Vec3(5, 0, 0.3)));
     for (const auto& shape : {std::shared_ptr<const Surface>(std::make_shared<EllipticCylinder>(0.3, 0.1)),
                               std::shared_ptr<const Surface>(std::make_shared<Paraboloid>(14, 6))}) {
         const double size = shape->getSize();
-        double highest = 0;
+        Eigen::AlignedBox3d drawn;
         const SurfaceMesh mesh = calcSurfaceMesh(*shape, 5 * size);
         EXPECT_TRUE(mesh.isCut);
-        for (const Vec3& p : mesh.points) highest = std::max(highest, std::abs(p.z()));
-        EXPECT_NEAR(highest, 5 * size, 0.2 * size) << shape->getDescription();
+        for (const Vec3& p : mesh.points) drawn.extend(p);
+        EXPECT_GE(drawn.max().z(), 5 * size) << shape->getDescription();
+        EXPECT_NEAR(drawn.max().z(), mesh.box.max().z(), 0.2 * size) << shape->getDescription();
+        EXPECT_NEAR(drawn.min().x(), -drawn.max().x(), 0.2 * size) << shape->getDescription();
     }
 }
 

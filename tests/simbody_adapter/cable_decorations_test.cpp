@@ -129,6 +129,13 @@ TEST(CableDecorationsTest, ContactFramesOnDemand) {
     EXPECT_MESSAGE(CableDecorations(scene.cables).setContactFrameSize(-1), "not negative, but is -1");
 }
 
+/** Copies of a PolygonalMesh share what is in it. */
+bool areOne(SimTK::PolygonalMesh& a, const SimTK::PolygonalMesh& b) {
+    const SimTK::Vec3 p = a.getVertexPosition(0);
+    a.scaleMesh(2);
+    return b.getVertexPosition(0) == 2 * p;
+}
+
 /** Whatever its shape, an obstacle has one picture; what Simbody has no shape for is a mesh on the surface. */
 TEST(CableDecorationsTest, EverySurfaceOfTheProjectIsDrawn) {
     for (const SurfaceCase& one : makeSurfaceCases()) {
@@ -213,6 +220,31 @@ TEST(CableDecorationsTest, PicturesReachTheContact) {
     EXPECT_MESSAGE(CableDecorations(scene.cables).setExtent(0), "positive and finite, but is 0");
 }
 
+/** Two obstacles of one surface, touched far out on either side. */
+TEST(CableDecorationsTest, ASharedSurfaceIsDrawnForAllOfItsObstacles) {
+    BareScene scene;
+    const auto surface = std::make_shared<EllipticCylinder>(0.2, 0.3);
+    const SimTK::Rotation along(SimTK::Pi / 2, SimTK::YAxis);  // z of S along x of ground
+    std::vector<Cable> cables;
+    for (const Real x : {-6.0, 6.0}) {
+        cables.emplace_back(scene.cables, scene.matter.Ground(), SimTK::Vec3(x, 0.1, -2), scene.matter.Ground(),
+                            SimTK::Vec3(x, 0.1, 2));
+        cables.back().addObstacle(scene.matter.Ground(), Transform(along, SimTK::Vec3(0, -0.1, 0)), surface);
+    }
+    const State state = scene.system.realizeTopology();
+    CableDecorations decorations(scene.cables);
+    draw(decorations, state);
+    Drawing drawing = draw(decorations, state);
+    ASSERT_EQ(drawing.meshes.size(), 2u);
+    for (const Cable& cable : cables) {
+        ASSERT_TRUE(cable.isTouched(state, CableElementIndex(1)));
+        const Geodesic& arc = cable.getSolution(state).contacts[1].geodesic;
+        for (const SimTK::PolygonalMesh& mesh : drawing.meshes)
+            EXPECT_LT(calcDistance(mesh, toSimTK(arc.P.x)), 0.1 * surface->getSize());
+    }
+    EXPECT_TRUE(areOne(drawing.meshes[0], drawing.meshes[1]));
+}
+
 TEST(CableDecorationsTest, MeshesAreLaidOnce) {
     OneObstacleScene scene(std::make_shared<Capsule>(0.1, 0.4), Transform(), SimTK::Vec3(-2, 1, 0),
                            SimTK::Vec3(2, 1, 0));
@@ -220,10 +252,7 @@ TEST(CableDecorationsTest, MeshesAreLaidOnce) {
     Drawing first = draw(decorations, scene.state), second = draw(decorations, scene.state);
     ASSERT_EQ(first.meshes.size(), 1u);
     ASSERT_EQ(second.meshes.size(), 1u);
-    // Copies of a PolygonalMesh share what is in it.
-    const SimTK::Vec3 p = first.meshes[0].getVertexPosition(0);
-    first.meshes[0].scaleMesh(2);
-    EXPECT_EQ(second.meshes[0].getVertexPosition(0), 2 * p);
+    EXPECT_TRUE(areOne(first.meshes[0], second.meshes[0]));
 }
 
 }  // namespace

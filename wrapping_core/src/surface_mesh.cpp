@@ -21,23 +21,23 @@ cell across the lattice's edges that the surface cuts, so that no bounds need be
 facet with its corners in the four cells around it. Cell (i, j, k) has node (i, j, k) at its lowest corner. */
 class SurfaceNet {
 public:
-    enum class Growth { Complete, OutOfReach, TooManyCells };
+    enum class Growth { Complete, OutOfBox, TooManyCells };
 
     /** @param centre   where the middle of cell (0, 0, 0) lies @param step   width of the cells */
     SurfaceNet(const Surface& surface, const Vec3& centre, double step)
         : m_surface(surface), m_centre(centre), m_step(step) {}
 
     /** The cells farthest out first, which soon shows whether the surface has an end.
-    @param reach   cells with a higher index are not entered @param stopsThere   nor is anything else after that */
-    Growth grow(const std::vector<Vec3>& seeds, int reach, bool stopsThere) {
+    @param box   cells beyond it are not entered @param stopsThere   nor is anything else after such a cell */
+    Growth grow(const std::vector<Vec3>& seeds, const Eigen::AlignedBox3d& box, bool stopsThere) {
         constexpr std::size_t kMaxCells = 20000;
         for (const Vec3& seed : seeds) addAround(findCell(seed));
         Growth growth = Growth::Complete;
         while (!m_front.empty()) {
-            const auto [distance, cell] = m_front.top();
+            const Index cell = m_front.top().second;
             m_front.pop();
-            if (distance > reach) {
-                growth = Growth::OutOfReach;
+            if (!reaches(box, cell)) {
+                growth = Growth::OutOfBox;
                 if (stopsThere) return growth;
                 continue;
             }
@@ -78,6 +78,14 @@ private:
         Index cell;
         for (int i = 0; i < 3; ++i) cell[i] = static_cast<int>(std::lround((p[i] - m_centre[i]) / m_step));
         return cell;
+    }
+
+    /** Whether some of the cell's points are nearer than half a cell to the box: so the box ends within the facets. */
+    bool reaches(const Eigen::AlignedBox3d& box, const Index& cell) const {
+        const Vec3 middle = m_centre + m_step * Vec3(cell[0], cell[1], cell[2]);
+        constexpr double kRounding = 1e-9;
+        return ((middle - box.max()).array() < (1 - kRounding) * m_step).all() &&
+               ((box.min() - middle).array() < (1 - kRounding) * m_step).all();
     }
 
     Vec3 calcNode(const Index& node) const {
@@ -239,16 +247,23 @@ std::vector<Vec3> findSeeds(const Surface& surface, const std::vector<Vec3>& nea
     return seeds;
 }
 
-/** @param cut   whether the surface is drawn as far as `reach` [m], or not at all if it goes on there
+Eigen::AlignedBox3d calcBox(const std::vector<Vec3>& points, double margin) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : points) box.extend(p);
+    return {box.min() - Vec3::Constant(margin), box.max() + Vec3::Constant(margin)};
+}
+
+/** @param cuts   whether the surface is drawn as far as the box, or not at all if it goes on beyond
 @return Complete, and facets in the mesh, or why there are none */
-SurfaceNet::Growth cover(const Surface& surface, const std::vector<Vec3>& seeds, double step, double reach, bool cut,
-                         SurfaceMesh& mesh) {
+SurfaceNet::Growth cover(const Surface& surface, const std::vector<Vec3>& seeds, double step,
+                         const Eigen::AlignedBox3d& box, bool cuts, SurfaceMesh& mesh) {
     using Growth = SurfaceNet::Growth;
-    SurfaceNet net(surface, mesh.centre, step);
-    const Growth growth = net.grow(seeds, static_cast<int>(std::ceil(reach / step)), !cut);
-    if (growth == Growth::TooManyCells || (growth == Growth::OutOfReach && !cut)) return growth;
-    mesh.isCut = growth == Growth::OutOfReach;
+    SurfaceNet net(surface, seeds.front(), step);
+    const Growth growth = net.grow(seeds, box, !cuts);
+    if (growth == Growth::TooManyCells || (growth == Growth::OutOfBox && !cuts)) return growth;
     net.addFaces(mesh);
+    mesh.isCut = growth == Growth::OutOfBox;
+    mesh.box = mesh.isCut ? box : calcBox(mesh.points, step);
     return Growth::Complete;
 }
 
@@ -261,12 +276,15 @@ SurfaceMesh calcSurfaceMesh(const Surface& surface, double extent, const std::ve
     SurfaceMesh mesh;
     const std::vector<Vec3> seeds = findSeeds(surface, near_S);
     if (seeds.empty()) return mesh;
-    mesh.centre = seeds.front();
-    for (double step = std::min(surface.getSize(), extent) / kFacetsPerSize;; step *= kCoarsening) {
-        Growth growth = cover(surface, seeds, step, kFar * surface.getSize(), false, mesh);
-        if (growth == Growth::OutOfReach) growth = cover(surface, seeds, step, extent, true, mesh);
-        if (growth == Growth::Complete) return mesh;
+    const Eigen::AlignedBox3d far = calcBox({seeds.front()}, kFar * surface.getSize()), near = calcBox(seeds, extent);
+    Growth growth = Growth::TooManyCells;
+    for (double step = std::min(surface.getSize(), extent) / kFacetsPerSize; growth != Growth::Complete;
+         step *= kCoarsening) {
+        growth = cover(surface, seeds, step, far, false, mesh);
+        if (growth == Growth::OutOfBox) growth = cover(surface, seeds, step, near, true, mesh);
     }
+    for (const Vec3& p : near_S) mesh.box.extend(p);
+    return mesh;
 }
 
 }  // namespace tautline

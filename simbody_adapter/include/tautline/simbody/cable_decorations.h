@@ -29,19 +29,16 @@ public:
     void generateDecorations(const SimTK::State& state, SimTK::Array_<SimTK::DecorativeGeometry>& geometry) override;
 
 private:
-    /** The mesh of a surface, and the cube to which it is cut. */
+    /** The mesh of a surface, the box in S that holds what is drawn, and the contact points that called for it. */
     struct Picture {
         SimTK::PolygonalMesh mesh;
-        SimTK::Vec3 centre_S{0};
-        SimTK::Real extent = 0;
-        bool isCut = false;
-
-        bool covers(const std::vector<Vec3>& points_S) const;
+        Eigen::AlignedBox3d box;
+        std::vector<Vec3> touched_S;
     };
 
     SimTK::DecorativeGeometry calcPicture(const Cable& cable, CableElementIndex obstacle, const SimTK::State& state);
     const SimTK::PolygonalMesh& findMesh(const std::shared_ptr<const Surface>& surface,
-                                         const std::vector<Vec3>& touched_S, const std::vector<Vec3>& near_S);
+                                         const std::vector<Vec3>& touched_S);
 
     const CableSubsystem& m_cables;
     SimTK::Vec3 m_cableColor = SimTK::Red;
