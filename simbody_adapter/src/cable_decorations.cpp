@@ -22,7 +22,8 @@ namespace {
 
 /** Simbody draws cylinders along y, the core's stand along z. */
 Transform calcCylinderPose(const Transform& X_BS) {
-    return X_BS * Transform(SimTK::Rotation(SimTK::Pi / 2, SimTK::XAxis));
+    const SimTK::Mat33 aboutX(1, 0, 0, 0, 0, -1, 0, 1, 0);  // a quarter turn
+    return X_BS * Transform(SimTK::Rotation(aboutX, true));
 }
 
 SimTK::PolygonalMesh toPolygonalMesh(const SurfaceMesh& facets) {

@@ -58,11 +58,11 @@ TEST(CableConstraintTest, ErrorsAreEachOthersDerivativesAndForcesTheirTranspose)
 TEST(CableConstraintTest, AtwoodsMachineHasItsTensionAndAcceleration) {
     BareScene scene;
     const Real m1 = 2, m2 = 3.5, radius = 0.3;
+    const SimTK::Rotation upward(SimTK::Pi / 2, SimTK::ZAxis);  // a slider goes along x
     const auto addMass = [&](Real mass, Real x) {
-        const Transform upward(SimTK::Rotation(SimTK::Pi / 2, SimTK::ZAxis), SimTK::Vec3(x, -1, 0));
-        return MobilizedBody::Slider(scene.matter.Ground(), upward,
+        return MobilizedBody::Slider(scene.matter.Ground(), Transform(upward, SimTK::Vec3(x, -1, 0)),
                                      SimTK::Body::Rigid(SimTK::MassProperties(mass, SimTK::Vec3(0), SimTK::Inertia(1))),
-                                     Transform(upward.R()));
+                                     Transform(upward));
     };
     MobilizedBody left = addMass(m1, -radius), right = addMass(m2, radius);
     SimTK::Force::Gravity(scene.forces, scene.matter, -SimTK::YAxis, g);
