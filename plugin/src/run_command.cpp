@@ -60,7 +60,7 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
             out << "curves: " << picture.string() << "\n";
 
     for (const PathSummary& summary : result.summaries)
-        if (summary.degradedSteps > 0 && !allowsDegraded) return 3;
+        if (summary.statistics.numDegradedSteps > 0 && !allowsDegraded) return 3;
     return 0;
 }
 

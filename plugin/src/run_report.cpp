@@ -62,16 +62,16 @@ void printRunTable(const models::ModelSystem& model, const SimulationResult& res
             << format(slot.cable.getLength(result.finalState), 5) << std::setw(10)
             << format(slot.cable.getLengthRate(result.finalState), 5) << std::setw(10)
             << format(slot.force.getTension(result.finalState), 3) << std::setw(13)
-            << format(summary.largestPathError, 1, true) << std::setw(7) << summary.contactsMade << std::setw(7)
-            << summary.contactsLost << std::setw(12) << slot.cable.getStatistics().numIterations << std::setw(10)
-            << summary.degradedSteps << "\n";
+            << format(summary.statistics.largestPathError, 1, true) << std::setw(7) << summary.contactsMade
+            << std::setw(7) << summary.contactsLost << std::setw(12) << summary.statistics.numIterations
+            << std::setw(10) << summary.statistics.numDegradedSteps << "\n";
     }
     out << result.acceptedSteps << " steps, " << format(result.seconds, 3) << " s, of which "
         << format(100 * result.wrappingSeconds / std::max(result.seconds, 1e-9), 1) << " % in wrapping\n";
     for (std::size_t i = 0; i < paths.size(); ++i)
-        if (result.summaries[i].degradedSteps > 0)
-            out << "warning: " << paths[i].name << ": " << result.summaries[i].degradedSteps
-                << " steps without a verified minimum; first " << result.summaries[i].firstDegradation << "\n";
+        if (const long numDegraded = result.summaries[i].statistics.numDegradedSteps; numDegraded > 0)
+            out << "warning: " << paths[i].name << ": " << numDegraded << " steps without a verified minimum; first "
+                << result.summaries[i].firstDegradation << "\n";
 }
 
 void ProgressBar::show(double share) {

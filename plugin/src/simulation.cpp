@@ -33,19 +33,14 @@ public:
         recordClearances(state);
     }
 
-    /** Counts what an accepted step's paths are like. */
+    /** Has the cables count an accepted step, and says why the first is degraded that is. */
     void inspectStep(const State& state) {
-        m_model.getSystem().realize(state, Stage::Position);
         ++m_result.acceptedSteps;
+        if (!m_paths.empty()) m_paths.front().cable.getSubsystem().countStep(state);
         for (std::size_t i = 0; i < m_paths.size(); ++i) {
-            const Cable& cable = m_paths[i].cable;
-            PathSummary& summary = m_result.summaries[i];
-            summary.largestPathError = std::max(summary.largestPathError, cable.getPathError(state));
-            const PathStatus status = cable.calcStatus(state);
-            if (status == PathStatus::Solved || summary.degradedSteps++ > 0) continue;
-            summary.firstDegradation = "at " + std::to_string(state.getTime()) + " s: ";
-            summary.firstDegradation +=
-                status == PathStatus::NotMinimum ? describeFault(cable, state) : getName(status);
+            std::string& reason = m_result.summaries[i].firstDegradation;
+            if (reason.empty() && m_paths[i].cable.getStatistics().numDegradedSteps > 0)
+                reason = describeDegradation(m_paths[i].cable, state);
         }
     }
 
@@ -70,6 +65,12 @@ private:
                 return "left_hole";
         }
         return "";
+    }
+
+    static std::string describeDegradation(const Cable& cable, const State& state) {
+        const PathStatus status = cable.calcStatus(state);
+        return "at " + std::to_string(state.getTime()) +
+               " s: " + (status == PathStatus::NotMinimum ? describeFault(cable, state) : getName(status));
     }
 
     static std::string describeFault(const Cable& cable, const State& state) {
@@ -239,11 +240,12 @@ void integrate(ModelSystem& model, const State& initialState, const SimulationOp
 SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excitation>& excitations,
                           const SimulationOptions& options, const std::function<void(double)>& reportProgress) {
     SimulationResult result;
+    const std::vector<ModelSystem::PathView> paths = model.getPaths();
+    for (const ModelSystem::PathView& path : paths) path.cable.resetStatistics();
     setExcitations(model, excitations);
     State state = model.makeDefaultState();
     startPaths(model, state, result);
     Recorder recorder(model, result);
-    const std::vector<ModelSystem::PathView> paths = model.getPaths();
     for (std::size_t i = 0; i < paths.size(); ++i)
         Cable(paths[i].cable).setContactListener([&recorder, i](const ContactEvent& event) {
             recorder.recordEvent(i, event);
@@ -251,9 +253,10 @@ SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excita
     const auto start = std::chrono::steady_clock::now();
     integrate(model, state, options, recorder, reportProgress, result.finalState);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (const ModelSystem::PathView& path : paths) {
-        result.wrappingSeconds += path.cable.getStatistics().seconds;
-        Cable(path.cable).setContactListener(nullptr);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        result.summaries[i].statistics = paths[i].cable.getStatistics();
+        result.wrappingSeconds += result.summaries[i].statistics.seconds;
+        Cable(paths[i].cable).setContactListener(nullptr);
     }
     return result;
 }

@@ -13,10 +13,9 @@ namespace tautline {
 
 /** What the path of a muscle or spring did over a simulation. */
 struct PathSummary {
-    double largestPathError = 0;  ///< over accepted steps
+    CableStatistics statistics;
     int contactsMade = 0, contactsLost = 0;
-    int degradedSteps = 0;         ///< accepted steps whose path was no verified minimum
-    std::string firstDegradation;  ///< status, reason and time of the first of them
+    std::string firstDegradation;  ///< status, reason and time of the first degraded step
 };
 
 struct SimulationResult {

@@ -175,6 +175,10 @@ SimTK::Transform Cable::getElementFrame(CableElementIndex element) const {
     return get().getElement(element).X_BE;
 }
 
+bool Cable::hasMovingPoints() const {
+    return get().hasMovingPoints();
+}
+
 std::shared_ptr<const Surface> Cable::getSurface(CableElementIndex element) const {
     return get().getElement(element).surface;
 }
@@ -339,6 +343,10 @@ Real Cable::calcMomentArm(const State& state, SimTK::MobilizedBodyIndex body, Si
 
 Real Cable::getLengthRate(const State& state) const {
     return get().getLengthRate(state);
+}
+
+Real Cable::getLengthAccelerationBias(const State& state) const {
+    return get().getLengthAccelerationBias(state);
 }
 
 Real Cable::calcPower(const State& state, Real tension) const {

@@ -1,14 +1,14 @@
 #include "tautline/simbody/cable_decorations.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tautline/cylinder.h"
 #include "tautline/ellipsoid.h"
 #include "tautline/error.h"
-#include "tautline/simbody/cable.h"
-#include "tautline/simbody/contact_geometry_surface.h"
 #include "tautline/simbody/conversions.h"
 #include "tautline/sphere.h"
+#include "tautline/surface_mesh.h"
 #include "tautline/torus.h"
 
 namespace tautline {
@@ -22,29 +22,21 @@ namespace {
 
 /** Simbody draws cylinders along y, the core's stand along z. */
 Transform calcCylinderPose(const Transform& X_BS) {
-    return X_BS * Transform(SimTK::Rotation(SimTK::Pi / 2, SimTK::XAxis));
+    const SimTK::Mat33 aboutX(1, 0, 0, 0, 0, -1, 0, 1, 0);  // a quarter turn
+    return X_BS * Transform(SimTK::Rotation(aboutX, true));
 }
 
-/** Simbody has no picture of a height map. */
-DecorativeGeometry calcDecoration(const SimTK::ContactGeometry& geometry) {
-    using HeightMap = SimTK::ContactGeometry::SmoothHeightMap;
-    if (!HeightMap::isInstance(geometry)) return geometry.createDecorativeGeometry();
-    return SimTK::DecorativeMesh(HeightMap::getAs(geometry).getBicubicSurface().createPolygonalMesh());
+SimTK::PolygonalMesh toPolygonalMesh(const SurfaceMesh& facets) {
+    SimTK::PolygonalMesh mesh;
+    for (const Vec3& point : facets.points) mesh.addVertex(toSimTK(point));
+    for (const std::array<int, 4>& face : facets.faces) mesh.addFace(Array_<int>(face.begin(), face.end()));
+    return mesh;
 }
 
-void addSurface(const Surface& surface, const Transform& X_BS, SimTK::Real halfLength,
-                const std::function<void(DecorativeGeometry)>& add) {
-    if (const auto* sphere = dynamic_cast<const Sphere*>(&surface))
-        add(SimTK::DecorativeSphere(sphere->getRadius()).setTransform(X_BS));
-    else if (const auto* cylinder = dynamic_cast<const Cylinder*>(&surface))
-        add(SimTK::DecorativeCylinder(cylinder->getRadius(), halfLength * cylinder->getRadius())
-                .setTransform(calcCylinderPose(X_BS)));
-    else if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(&surface))
-        add(SimTK::DecorativeEllipsoid(toSimTK(ellipsoid->getSemiAxes())).setTransform(X_BS));
-    else if (const auto* torus = dynamic_cast<const Torus*>(&surface))
-        add(SimTK::DecorativeTorus(torus->getRingRadius(), torus->getTubeRadius()).setTransform(X_BS));
-    else if (const auto* wrapped = dynamic_cast<const ContactGeometrySurface*>(&surface))
-        add(calcDecoration(wrapped->getContactGeometry()).setTransform(X_BS));
+/** Where the cable touches an obstacle, in S. */
+std::vector<Vec3> getTouchedPoints(const ObstacleContact& contact) {
+    if (!contact.isTouched) return {};
+    return {contact.geodesic.P.x, contact.geodesic.Q.x};
 }
 
 /** Frames at the ends of an arc, if there is one. */
@@ -86,9 +78,46 @@ CableDecorations& CableDecorations::setContactFrameSize(SimTK::Real length) {
     return *this;
 }
 
-CableDecorations& CableDecorations::setCylinderHalfLength(SimTK::Real radii) {
-    m_cylinderHalfLength = radii;
+CableDecorations& CableDecorations::setExtent(SimTK::Real sizes) {
+    require(std::isfinite(sizes) && sizes > 0, "cable decorations: the extent of surfaces without end must be ",
+            "positive and finite, but is ", sizes);
+    m_extent = sizes;
+    m_pictures.clear();
     return *this;
+}
+
+/** A new mesh is laid where the cable touches the surface beyond what is drawn. */
+const SimTK::PolygonalMesh& CableDecorations::findMesh(const std::shared_ptr<const Surface>& surface,
+                                                       const std::vector<Vec3>& touched_S) {
+    const auto [found, isNew] = m_pictures.try_emplace(surface);
+    Picture& picture = found->second;
+    const auto isDrawn = [&picture](const Vec3& p) { return picture.box.contains(p); };
+    if (isNew || !std::all_of(touched_S.begin(), touched_S.end(), isDrawn)) {
+        // Together with those before: obstacles may share the surface.
+        picture.touched_S.insert(picture.touched_S.end(), touched_S.begin(), touched_S.end());
+        const SurfaceMesh facets = calcSurfaceMesh(*surface, m_extent * surface->getSize(), picture.touched_S);
+        picture.mesh = toPolygonalMesh(facets);
+        picture.box = facets.box;
+    }
+    return picture.mesh;
+}
+
+DecorativeGeometry CableDecorations::calcPicture(const Cable& cable, CableElementIndex obstacle, const State& state) {
+    const std::shared_ptr<const Surface> surface = cable.getSurface(obstacle);
+    const Transform& X_BS = cable.getElementFrame(obstacle);
+    const std::vector<Vec3> touched_S = getTouchedPoints(cable.getSolution(state).contacts[obstacle]);
+    if (const auto* sphere = dynamic_cast<const Sphere*>(surface.get()))
+        return SimTK::DecorativeSphere(sphere->getRadius()).setTransform(X_BS);
+    if (const auto* cylinder = dynamic_cast<const Cylinder*>(surface.get())) {
+        SimTK::Real halfLength = m_extent * cylinder->getRadius();
+        for (const Vec3& p : touched_S) halfLength = std::max(halfLength, std::abs(p.z()));
+        return SimTK::DecorativeCylinder(cylinder->getRadius(), halfLength).setTransform(calcCylinderPose(X_BS));
+    }
+    if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(surface.get()))
+        return SimTK::DecorativeEllipsoid(toSimTK(ellipsoid->getSemiAxes())).setTransform(X_BS);
+    if (const auto* torus = dynamic_cast<const Torus*>(surface.get()))
+        return SimTK::DecorativeTorus(torus->getRingRadius(), torus->getTubeRadius()).setTransform(X_BS);
+    return SimTK::DecorativeMesh(findMesh(surface, touched_S)).setTransform(X_BS);
 }
 
 void CableDecorations::generateDecorations(const State& state, Array_<DecorativeGeometry>& geometry) {
@@ -101,11 +130,8 @@ void CableDecorations::generateDecorations(const State& state, Array_<Decorative
             if (!cable.isObstacle(e)) continue;
             const SimTK::Vec3& color = cable.isTouched(state, e) ? m_touchedSurfaceColor : m_surfaceColor;
             if (m_contactFrameSize > 0) addContactFrames(cable, state, e, m_contactFrameSize, geometry);
-            addSurface(*cable.getSurface(e), cable.getElementFrame(e), m_cylinderHalfLength,
-                       [&](DecorativeGeometry shape) {
-                           shape.setBodyId(cable.getElementBody(e));
-                           geometry.push_back(shape.setColor(color).setOpacity(0.5));
-                       });
+            geometry.push_back(
+                calcPicture(cable, e, state).setBodyId(cable.getElementBody(e)).setColor(color).setOpacity(0.5));
         }
     }
 }

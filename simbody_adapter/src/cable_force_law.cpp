@@ -24,6 +24,8 @@ CableForceLaw& CableForce::updLaw() {
 }
 
 Real CableForce::getTension(const State& state) const {
+    SimTK_STAGECHECK_GE_ALWAYS(getCable().getMatterSubsystem().getStage(state), SimTK::Stage(SimTK::Stage::Velocity),
+                               "CableForce::getTension()");
     if (isDisabled(state)) return 0;
     return dynamic_cast<const CableForceImpl&>(getImplementation()).calcTension(state);
 }

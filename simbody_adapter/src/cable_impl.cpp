@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "cable_subsystem_impl.h"
 #include "contact_event_handler.h"
@@ -97,6 +98,11 @@ void CableImpl::setDisabledByDefault(bool isDisabled) {
     m_cables.invalidateSubsystemTopologyCache();
 }
 
+bool CableImpl::hasMovingPoints() const {
+    return std::any_of(m_elements.begin(), m_elements.end(),
+                       [](const CableElement& element) { return element.moving || element.isActive; });
+}
+
 const CableElement& CableImpl::getElement(CableElementIndex element) const {
     require(element.isValid() && element < getNumElements(), "cable '", m_name, "': no element ",
             static_cast<int>(element), " of ", getNumElements());
@@ -157,6 +163,34 @@ Real CableImpl::getLengthRate(const State& state) const {
         m_state.setRate(state, calcLengthRate(path, workspace.pose, workspace.velocities));
     }
     return m_state.getRate(state);
+}
+
+Real CableImpl::getLengthAccelerationBias(const State& state) const {
+    const char* const method = "Cable::getLengthAccelerationBias()";
+    m_cables.ensureStage(state, Stage::Velocity, method);
+    SimTK_ERRCHK1_ALWAYS(!hasMovingPoints(), method, "cable '%s' has moving or conditional points", m_name.c_str());
+    const PathSolution& path = getPath(state, method);
+    if (!m_state.isBiasRealized(state)) m_state.setBias(state, calcLengthAccelerationBias(state, path));
+    return m_state.getBias(state);
+}
+
+/** Of dL/dt = -sum (F . v + M . w) over the elements' origins E: the rates of the unit forces, and the acceleration of
+E that turning alone gives it. On the verge of instability, where the forces' rates are without bound, that alone. */
+Real CableImpl::calcLengthAccelerationBias(const State& state, const PathSolution& path) const {
+    CableWorkspace& workspace = m_state.updWorkspace(state);
+    calcVelocities(state, workspace.velocities);
+    workspace.sensitivity.setPath(m_problem, workspace.pose, path);
+    workspace.sensitivity.calcVariation(workspace.velocities, workspace.variation);
+    calcUnitForces(path, workspace.pose, workspace.forces);
+    Real bias = 0;
+    for (std::size_t e = 0; e < m_elements.size(); ++e) {
+        const SpatialForce &F = workspace.forces[e], &FRate = workspace.variation.forceRate[e];
+        const SpatialVelocity& V = workspace.velocities[e];
+        const SimTK::Vec3 p_BE_G = getBody(m_elements[e]).getBodyRotation(state) * m_elements[e].X_BE.p();
+        const Vec3 centripetal = V.w.cross(V.w.cross(toEigen(p_BE_G)));
+        bias -= FRate.force.dot(V.v) + FRate.moment.dot(V.w) + F.force.dot(centripetal);
+    }
+    return bias;
 }
 
 Real CableImpl::calcWitness(const State& state, CableElementIndex obstacle) const {
@@ -351,6 +385,10 @@ PathStatus CableImpl::calcStatus(const State& state) const {
 void CableImpl::countStep(const State& state) const {
     ++m_counters.steps;
     if (calcStatus(state) != PathStatus::Solved) ++m_counters.degradedSteps;
+    const Real error = getPath(state, "CableSubsystem::countStep()").pathError;
+    double largest = m_counters.largestPathError;
+    while (!(error <= largest) && !std::isnan(largest))
+        if (m_counters.largestPathError.compare_exchange_weak(largest, error)) break;
 }
 
 CableStatistics CableImpl::getStatistics() const {
@@ -363,6 +401,7 @@ CableStatistics CableImpl::getStatistics() const {
     result.numContactEvents = m_counters.events;
     result.numSteps = m_counters.steps;
     result.numDegradedSteps = m_counters.degradedSteps;
+    result.largestPathError = m_counters.largestPathError;
     result.numHolesLeft = m_counters.holesLeft;
     result.seconds = 1e-9 * static_cast<double>(m_counters.nanoseconds);
     return result;
@@ -374,6 +413,7 @@ void CableImpl::resetStatistics() const {
           &m_counters.events, &m_counters.holesLeft, &m_counters.nanoseconds, &m_counters.steps,
           &m_counters.degradedSteps})
         *counter = 0;
+    m_counters.largestPathError = 0;
 }
 
 }  // namespace tautline

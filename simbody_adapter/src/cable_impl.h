@@ -39,6 +39,7 @@ public:
     const CableSubsystemImpl& getSubsystemImpl() const { return m_cables; }
     const PathSolverOptions& getOptions() const { return m_options; }
     bool isDisabledByDefault() const { return m_defaultMode.isDisabled; }
+    bool hasMovingPoints() const;
     int getNumElements() const { return static_cast<int>(m_elements.size()); }
     const CableElement& getElement(CableElementIndex element) const;
     const CableElement& getObstacle(CableElementIndex element) const;
@@ -56,6 +57,7 @@ public:
     const PathPose& getPose(const SimTK::State& state) const { return m_state.updWorkspace(state).pose; }
     const PathProblem& getProblem() const { return m_problem; }
     SimTK::Real getLengthRate(const SimTK::State& state) const;
+    SimTK::Real getLengthAccelerationBias(const SimTK::State& state) const;
     SimTK::Real calcWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     SimTK::Real calcSplitWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     void reportSplit(const SimTK::State& state, CableElementIndex obstacle) const;
@@ -83,6 +85,7 @@ public:
 private:
     void checkHint(const CableElement& obstacle) const;
     void calcPose(const SimTK::State& state, PathPose& pose) const;
+    SimTK::Real calcLengthAccelerationBias(const SimTK::State& state, const PathSolution& path) const;
     void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
     void solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace, PathSolution& path) const;
     void solveKept(const PathSolution& start, CableWorkspace& workspace, PathSolution& path) const;
@@ -104,6 +107,7 @@ private:
     struct Counters {
         std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, holesLeft{0},
             nanoseconds{0}, steps{0}, degradedSteps{0};
+        std::atomic<double> largestPathError{0};
     };
     mutable Counters m_counters;
 };

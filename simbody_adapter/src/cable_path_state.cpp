@@ -13,6 +13,7 @@ void CablePathState::allocate(const SimTK::Subsystem::Guts& cables, State& state
     m_path = cables.allocateAutoUpdateDiscreteVariable(state, Stage::Position, new Value<PathSolution>(PathSolution()),
                                                        Stage::Position);
     m_rate = cables.allocateLazyCacheEntry(state, Stage::Velocity, new Value<SimTK::Real>(SimTK::NaN));
+    m_bias = cables.allocateLazyCacheEntry(state, Stage::Velocity, new Value<SimTK::Real>(SimTK::NaN));
     m_workspace =
         cables.allocateLazyCacheEntry(state, Stage::Topology, new Value<CableWorkspace>(CableWorkspace(options)));
 }
@@ -60,6 +61,19 @@ SimTK::Real CablePathState::getRate(const State& state) const {
 void CablePathState::setRate(const State& state, SimTK::Real rate) const {
     Value<SimTK::Real>::updDowncast(m_cables->updCacheEntry(state, m_rate)) = rate;
     m_cables->markCacheValueRealized(state, m_rate);
+}
+
+bool CablePathState::isBiasRealized(const State& state) const {
+    return m_cables->isCacheValueRealized(state, m_bias);
+}
+
+SimTK::Real CablePathState::getBias(const State& state) const {
+    return Value<SimTK::Real>::downcast(m_cables->getCacheEntry(state, m_bias));
+}
+
+void CablePathState::setBias(const State& state, SimTK::Real bias) const {
+    Value<SimTK::Real>::updDowncast(m_cables->updCacheEntry(state, m_bias)) = bias;
+    m_cables->markCacheValueRealized(state, m_bias);
 }
 
 CableWorkspace& CablePathState::updWorkspace(const State& state) const {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "tautline/path_sensitivity.h"
 #include "tautline/path_solver.h"
 
 namespace tautline {
@@ -28,13 +29,15 @@ struct CableWorkspace {
     PathPose pose;  ///< of the path last solved
     std::vector<SpatialVelocity> velocities;
     std::vector<SpatialForce> forces;
+    PathSensitivity sensitivity;
+    PathVariation variation;
 };
 
 /** Where a cable's variables and cache entries stand in a State.
 
 Mode: a discrete variable that invalidates Position. Path: an auto-update discrete variable; its value is
 the start of the next solve, contact set included, its update value the path of the present pose, which a
-study swaps in when it accepts a step. Rate: cached at Velocity. */
+study swaps in when it accepts a step. Rate and bias (of the second derivative): cached at Velocity. */
 class CablePathState {
 public:
     /** To be called from realizeTopology(). */
@@ -56,12 +59,16 @@ public:
     SimTK::Real getRate(const SimTK::State& state) const;
     void setRate(const SimTK::State& state, SimTK::Real rate) const;
 
+    bool isBiasRealized(const SimTK::State& state) const;
+    SimTK::Real getBias(const SimTK::State& state) const;
+    void setBias(const SimTK::State& state, SimTK::Real bias) const;
+
     CableWorkspace& updWorkspace(const SimTK::State& state) const;
 
 private:
     const SimTK::Subsystem::Guts* m_cables = nullptr;
     SimTK::DiscreteVariableIndex m_mode, m_path;
-    SimTK::CacheEntryIndex m_rate, m_workspace;
+    SimTK::CacheEntryIndex m_rate, m_bias, m_workspace;
 };
 
 }  // namespace tautline

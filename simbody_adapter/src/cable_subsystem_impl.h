@@ -28,6 +28,12 @@ public:
     realized, the cables can be. @throws the stage error of `method` if they are not */
     void ensureStage(const SimTK::State& state, SimTK::Stage stage, const char* method) const;
 
+    /** For constraints, which are asked for position errors while the matter subsystem is still at work on that stage
+    but has placed its bodies. */
+    void realizePositionOfPlacedBodies(const SimTK::State& state) const {
+        if (getStage(state) < SimTK::Stage::Position) realizeSubsystemPosition(state);
+    }
+
 protected:
     CableSubsystemImpl* cloneImpl() const override;
     int realizeSubsystemTopologyImpl(SimTK::State& state) const override;

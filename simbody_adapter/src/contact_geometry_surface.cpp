@@ -82,8 +82,8 @@ std::string ContactGeometrySurface::getDescription() const {
     return text.str();
 }
 
-bool ContactGeometrySurface::isInDomain(const SurfacePoint& point) const {
-    return !m_heightMap || m_heightMap->isInDomain({point.p, point.p.head<2>(), 0});
+double ContactGeometrySurface::calcDomainMargin(const SurfacePoint& point) const {
+    return m_heightMap ? m_heightMap->calcDomainMargin({point.p, point.p.head<2>(), 0}) : kInfinity;
 }
 
 ImplicitValue ContactGeometrySurface::calcImplicit(const Vec3& p_S) const {

@@ -79,7 +79,7 @@ TEST(ThesisParaboloid, TouchesAndLiftsOffWhereTheLineIsTangent) {
         << run.result.events;
     EXPECT_NEAR(times[0], touchdown, 1e-9);
     EXPECT_NEAR(times[1], 5 - touchdown, 1e-9);
-    EXPECT_EQ(run.result.summaries.at(0).degradedSteps, 0);
+    EXPECT_EQ(run.result.summaries.at(0).statistics.numDegradedSteps, 0);
 }
 
 TEST(ThesisParaboloid, LengthAndRateAreContinuousOverTheEvents) {
@@ -225,10 +225,10 @@ TEST(ThesisParaboloid, LengthIsThatOfTheShortestPolyline) {
 void checkThatFormsAgree(double duration) {
     const SimulationOptions options = makeOptions(duration, 0.05, 1e-10);
     const SimulatedModel implicit("four_surfaces_implicit", options), parametric("four_surfaces_parametric", options);
-    EXPECT_EQ(implicit.result.summaries.at(0).degradedSteps, 0);
-    EXPECT_EQ(parametric.result.summaries.at(0).degradedSteps, 0);
-    EXPECT_LT(implicit.result.summaries.at(0).largestPathError, 1e-6);
-    EXPECT_LT(parametric.result.summaries.at(0).largestPathError, 1e-6);
+    EXPECT_EQ(implicit.result.summaries.at(0).statistics.numDegradedSteps, 0);
+    EXPECT_EQ(parametric.result.summaries.at(0).statistics.numDegradedSteps, 0);
+    EXPECT_LT(implicit.result.summaries.at(0).statistics.largestPathError, 1e-6);
+    EXPECT_LT(parametric.result.summaries.at(0).statistics.largestPathError, 1e-6);
     for (const char* quantity : {"length", "rate"}) {
         const std::vector<double> a = implicit.getOfString(quantity), b = parametric.getOfString(quantity);
         ASSERT_EQ(a.size(), b.size());
@@ -237,8 +237,8 @@ void checkThatFormsAgree(double duration) {
         std::cout << quantity << ": largest difference over " << duration << " s " << largest << "\n";
         EXPECT_LT(largest, 1e-8) << quantity;
     }
-    std::cout << "largest path errors " << implicit.result.summaries[0].largestPathError << " and "
-              << parametric.result.summaries[0].largestPathError << "\n";
+    std::cout << "largest path errors " << implicit.result.summaries[0].statistics.largestPathError << " and "
+              << parametric.result.summaries[0].statistics.largestPathError << "\n";
     EXPECT_EQ(implicit.result.summaries[0].contactsLost, parametric.result.summaries[0].contactsLost);
     EXPECT_EQ(implicit.result.summaries[0].contactsMade, parametric.result.summaries[0].contactsMade);
 }
@@ -256,8 +256,8 @@ TEST(ThesisFourSurfaces, TheEllipsoidLiftsOffAndTouchesDownThreeTimes) {
     const PathSummary& summary = run.result.summaries.at(0);
     EXPECT_EQ(summary.contactsLost, 3) << run.result.events;
     EXPECT_EQ(summary.contactsMade, 3) << run.result.events;
-    EXPECT_EQ(summary.degradedSteps, 0) << summary.firstDegradation;
-    EXPECT_LT(summary.largestPathError, 1e-6);
+    EXPECT_EQ(summary.statistics.numDegradedSteps, 0) << summary.firstDegradation;
+    EXPECT_LT(summary.statistics.largestPathError, 1e-6);
     for (const char* other : {"over_cylinder", "through_torus", "through_elliptic_torus"}) {
         EXPECT_EQ(run.result.events.find(other), std::string::npos);
         for (double contact : run.getOfString("contact." + std::string(other))) EXPECT_EQ(contact, 1);

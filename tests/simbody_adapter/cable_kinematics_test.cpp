@@ -2,6 +2,7 @@
 #include <thread>
 
 #include "adapter_scenes.h"
+#include "tautline/bspline_patch.h"
 
 namespace tautline::testing {
 namespace {
@@ -82,28 +83,41 @@ TEST(CableKinematics, ForcesAndMomentsBalance) {
     for (SimTK::MobilizedBodyIndex b(0); b < F_G.size(); ++b) EXPECT_LT((applied[b] - 5.0 * F_G[b]).norm(), 1e-14);
 }
 
-/** One iteration is not enough for the solver, and the best path that it met is what pulls. */
-TEST(CableKinematics, APathThatIsNoSolutionBalancesAndHasItsOwnRateAndPower) {
-    BareScene scene;
-    MobilizedBody::Free first(scene.matter.Ground(), Transform(), makeBody(), Transform());
-    MobilizedBody::Free second(scene.matter.Ground(), Transform(), makeBody(), Transform());
-    MobilizedBody::Free end(scene.matter.Ground(), Transform(), makeBody(), Transform());
-    Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(-3, 0, 0), end, SimTK::Vec3(0.1, 0, 0.2));
-    cable.addObstacle(first, Transform(), std::make_shared<Cylinder>(1), SimTK::Vec3(0, 1, 0));
-    cable.addObstacle(second, Transform(), std::make_shared<Torus>(1, 0.4), SimTK::Vec3(0, 0.6, 0));
-    PathSolverOptions options;
-    options.maxIterations = 1;
-    cable.setOptions(options);
-    State state = scene.system.realizeTopology();
-    first.setQToFitTranslation(state, SimTK::Vec3(-1, 0, 0));
-    second.setQToFitTranslation(state, SimTK::Vec3(2, -0.5, 0));
-    end.setQToFitTranslation(state, SimTK::Vec3(4, 0.1, 0.3));
-    for (int i = 0; i < state.getNU(); ++i) state.updU()[i] = std::sin(1 + 2.3 * i);
-    scene.system.realize(state, Stage::Velocity);
-    ASSERT_EQ(cable.getStatus(state), PathStatus::NotConverged);
-    EXPECT_TRUE(std::isfinite(cable.getLength(state)));
+/** A cable between two free bodies over one or two more, and with everything in motion. */
+struct CableOfFreeBodies : BareScene {
+    CableOfFreeBodies(const std::vector<std::shared_ptr<const Surface>>& surfaces, const Vec3& hint_S,
+                      const PathSolverOptions& options = {}) {
+        for (std::size_t i = 0; i < surfaces.size() + 2; ++i)
+            bodies.push_back(MobilizedBody::Free(matter.Ground(), Transform(), makeBody(), Transform()));
+        cable = Cable(cables, bodies.front(), SimTK::Vec3(0.2, -0.1, 0.3), bodies.back(), SimTK::Vec3(0.1, 0, 0.2));
+        for (std::size_t i = 0; i < surfaces.size(); ++i)
+            cable.addObstacle(bodies[i + 1], SimTK::Vec3(0.1, 0.2, -0.3), surfaces[i], PassNear{hint_S});
+        cable.setOptions(options);
+    }
+    /** @param places   of the bodies' stations in ground */
+    State makeState(const std::vector<SimTK::Vec3>& places) {
+        State state = system.realizeTopology();
+        pose(state, places);
+        return state;
+    }
+    void pose(State& state, const std::vector<SimTK::Vec3>& places) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const SimTK::Vec3 station = cable.getElementFrame(CableElementIndex(static_cast<int>(i))).p();
+            bodies[i].setQToFitTranslation(state, places[i] - station);
+        }
+        for (int i = 0; i < state.getNU(); ++i) state.updU()[i] = std::sin(1 + 2.3 * i);
+        system.realize(state, Stage::Velocity);
+    }
+    std::vector<MobilizedBody::Free> bodies;
+    Cable cable;
+};
+
+/** Whatever the path is that is returned: its forces balance, and their power is that of its own rate. */
+void expectBalancedWithItsOwnRate(const CableOfFreeBodies& scene, const State& state, PathStatus status) {
+    ASSERT_EQ(scene.cable.calcStatus(state), status) << getName(scene.cable.calcStatus(state));
+    EXPECT_TRUE(std::isfinite(scene.cable.getLength(state)));
     SimTK::Vector_<SimTK::SpatialVec> F_G;
-    cable.calcUnitBodyForces(state, F_G);
+    scene.cable.calcUnitBodyForces(state, F_G);
     SimTK::Vec3 force(0), moment(0);
     Real power = 0;
     for (SimTK::MobilizedBodyIndex b(0); b < F_G.size(); ++b) {
@@ -114,8 +128,47 @@ TEST(CableKinematics, APathThatIsNoSolutionBalancesAndHasItsOwnRateAndPower) {
     }
     EXPECT_LT(force.norm(), 1e-13);
     EXPECT_LT(moment.norm(), 1e-12);
-    EXPECT_NEAR(power, -cable.getLengthRate(state), 1e-12);
-    EXPECT_NEAR(cable.calcPower(state, 7), -7 * cable.getLengthRate(state), 1e-12);
+    EXPECT_NEAR(power, -scene.cable.getLengthRate(state), 1e-12);
+    EXPECT_NEAR(scene.cable.calcPower(state, 7), -7 * scene.cable.getLengthRate(state), 1e-12);
+}
+
+/** One iteration is not enough for the solver, and the best path that it met is what pulls. */
+TEST(CableKinematics, APathThatHasNotConvergedBalancesAndHasItsOwnRateAndPower) {
+    PathSolverOptions options;
+    options.maxIterations = 1;
+    CableOfFreeBodies scene({std::make_shared<Cylinder>(1), std::make_shared<Torus>(1, 0.4)}, Vec3(0, 1, 0), options);
+    expectBalancedWithItsOwnRate(scene,
+                                 scene.makeState({SimTK::Vec3(-3, 0, 0), SimTK::Vec3(-1, 0, 0), SimTK::Vec3(2, -0.5, 0),
+                                                  SimTK::Vec3(4, 0.1, 0.3)}),
+                                 PathStatus::NotConverged);
+}
+
+TEST(CableKinematics, APathWhoseEndIsInsideAnObstacleBalancesAndHasItsOwnRateAndPower) {
+    CableOfFreeBodies scene({std::make_shared<Sphere>(1)}, Vec3(0, 1, 0));
+    expectBalancedWithItsOwnRate(scene,
+                                 scene.makeState({SimTK::Vec3(-3, 0, 0), SimTK::Vec3(0), SimTK::Vec3(0.2, 0.4, 0.1)}),
+                                 PathStatus::EndInside);
+}
+
+/** Lowered onto the near tube of a ring while it lies on the far one: one arc cannot describe it. */
+TEST(CableKinematics, APathThatIsNoMinimumBalancesAndHasItsOwnRateAndPower) {
+    CableOfFreeBodies scene({std::make_shared<Torus>(1, 0.2)}, Vec3(1, 0, 0.2));
+    State state = scene.makeState({SimTK::Vec3(-3, 0, 1), SimTK::Vec3(0), SimTK::Vec3(2, 0, -0.6)});
+    scene.cable.fixContacts(state);
+    scene.pose(state, {SimTK::Vec3(-3, 0, 0.1), SimTK::Vec3(0), SimTK::Vec3(2, 0, -0.6)});
+    expectBalancedWithItsOwnRate(scene, state, PathStatus::NotMinimum);
+}
+
+TEST(CableKinematics, APathThatHasLeftItsDomainBalancesAndHasItsOwnRateAndPower) {
+    Eigen::MatrixXd heights(5, 5);
+    for (int i = 0; i < 5; ++i)
+        for (int j = 0; j < 5; ++j) heights(i, j) = -0.2 * (SimTK::square(i - 2) + SimTK::square(j - 2)) / 4;
+    CableOfFreeBodies scene(
+        {std::make_shared<BSplinePatch>(BSplinePatch::interpolateHeights({Vec2(-1, -1), Vec2(1, 1)}, heights))},
+        Vec3(1.2, 0, -0.2));
+    expectBalancedWithItsOwnRate(
+        scene, scene.makeState({SimTK::Vec3(1.2, -3, -1.3), SimTK::Vec3(0), SimTK::Vec3(1.25, 3, -1.3)}),
+        PathStatus::LeftDomain);
 }
 
 TEST(CableKinematics, MomentArmIsMinusTheDerivativeOfLength) {

@@ -215,6 +215,7 @@ struct CableSpanTwin : TwinBodies {
     TwinAnswer calcAnswer(Real number) {
         const State state = makeState(number);
         system.realize(state, Stage::Velocity);
+        isSmooth = cable.getSmoothness(state) <= cable.getSmoothnessTolerance();
         TwinAnswer answer{cable.calcLength(state), cable.calcLengthDot(state), {}};
         answer.unitForces.resize(matter.getNumBodies());
         answer.unitForces = SimTK::SpatialVec(SimTK::Vec3(0));
@@ -224,6 +225,7 @@ struct CableSpanTwin : TwinBodies {
 
     SimTK::CableSubsystem cables{system};
     SimTK::CableSpan cable;
+    bool isSmooth = false;  ///< whether the last answer met the tolerance
 };
 #endif
 

@@ -1,6 +1,7 @@
 #include <map>
 
 #include "adapter_scenes.h"
+#include "tautline/simbody/cable_constraint.h"
 #include "tautline/simbody/cable_forces.h"
 #include "tautline/simbody/hill_muscle.h"
 
@@ -75,6 +76,7 @@ TEST(CableStages, AskedTooEarlyThrowsTheStageError) {
     }
     const std::map<std::string, Query> velocityQueries = {
         {"Cable::getLengthRate()", [&](const State& s) { scene.cable.getLengthRate(s); }},
+        {"Cable::getLengthAccelerationBias()", [&](const State& s) { scene.cable.getLengthAccelerationBias(s); }},
         {"Cable::calcPower()", [&](const State& s) { scene.cable.calcPower(s, 1); }}};
     scene.system.realize(state, Stage::Position);
     for (const auto& [name, query] : makePositionQueries(scene))
@@ -90,6 +92,46 @@ TEST(CableStages, AskedTooEarlyThrowsTheStageError) {
     state.updQ()[0] += 0.01;
     scene.system.realize(state, Stage::Time);
     EXPECT_THROW(scene.cable.getLength(state), SimTK::Exception::StageTooLow);
+}
+
+TEST(CableStages, ForcesAskedTooEarlyThrowTheStageErrorToo) {
+    MechanismScene scene;
+    const ElasticStringForce string(scene.forces, scene.cable, 1, 1, 0);
+    const CableSpringForce spring(scene.forces, scene.cable, 1, 1, 1);
+    const PrescribedTensionForce tension(scene.forces, scene.cable, 1);
+    const HillMuscle muscle(scene.forces, scene.cable, HillMuscleParameters());
+    const CableConstraint constraint(scene.matter, scene.cable, 4);
+    scene.system.realizeTopology();
+    State state = scene.makeState(0);
+    const auto expectStage = [&](Stage stage, const std::vector<Query>& queries) {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            scene.system.realize(state, stage.prev());
+            EXPECT_THROW(queries[i](state), SimTK::Exception::StageTooLow) << stage.getName() << " query " << i;
+            scene.system.realize(state, stage);
+            EXPECT_NO_THROW(queries[i](state)) << stage.getName() << " query " << i;
+            state.invalidateAllCacheAtOrAbove(stage);
+        }
+    };
+    expectStage(Stage::Position,
+                {[&](const State& s) { string.getStretch(s); }, [&](const State& s) { muscle.getFibreLength(s); },
+                 [&](const State& s) { muscle.getPennation(s); }});
+    expectStage(Stage::Velocity,
+                {[&](const State& s) { string.getTension(s); }, [&](const State& s) { spring.getTension(s); },
+                 [&](const State& s) { tension.getTension(s); }, [&](const State& s) { muscle.getTension(s); },
+                 [&](const State& s) { string.calcPower(s); }, [&](const State& s) { string.getPowerDissipation(s); },
+                 [&](const State& s) { muscle.getFibreVelocity(s); }});
+    expectStage(Stage::Acceleration, {[&](const State& s) { constraint.getTension(s); }});
+}
+
+/** One at Position for each obstacle, one more for each that is not convex; none at any other stage. */
+TEST(CableStages, EveryObstacleHasItsWitnessAtPosition) {
+    MechanismScene scene;
+    scene.cable.addObstacle(scene.matter.Ground(), SimTK::Vec3(0, 5, 0), std::make_shared<Torus>(0.3, 0.1));
+    scene.system.realizeTopology();
+    const State state = scene.makeState(0);
+    scene.system.realize(state, Stage::Acceleration);
+    for (Stage stage = Stage::Time; stage <= Stage::Acceleration; stage = stage.next())
+        EXPECT_EQ(state.getNEventTriggersByStage(stage), stage == Stage::Position ? 3 + 2 : 0) << stage.getName();
 }
 
 TEST(CableStages, SettersInvalidateTheirStage) {
@@ -177,9 +219,11 @@ TEST(CableStages, AcceptedStepsThatAreNoSolutionAreCounted) {
     SimTK::TimeStepper stepper(scene.system, integrator);
     stepper.setReportAllSignificantStates(true);
     stepper.initialize(state);
+    Real largestError = 0;
     while (integrator.getTime() < 3) {
         stepper.stepTo(3);
         scene.cables.countStep(integrator.getState());
+        largestError = std::max(largestError, cable.getPathError(integrator.getState()));
     }
     const CableStatistics statistics = cable.getStatistics();
     EXPECT_GE(statistics.numSteps, 300);
@@ -188,6 +232,11 @@ TEST(CableStages, AcceptedStepsThatAreNoSolutionAreCounted) {
     EXPECT_NEAR(Real(statistics.numDegradedSteps) / Real(statistics.numSteps), share, 0.02);
     EXPECT_EQ(clear.getStatistics().numSteps, statistics.numSteps);
     EXPECT_EQ(clear.getStatistics().numDegradedSteps, 0);
+    EXPECT_EQ(statistics.largestPathError, largestError);
+    EXPECT_LE(clear.getStatistics().largestPathError, clear.getOptions().pathErrorTolerance);
+    clear.resetStatistics();
+    EXPECT_EQ(clear.getStatistics().numSteps, 0);
+    EXPECT_EQ(clear.getStatistics().largestPathError, 0);
 }
 
 TEST(CableStages, StatusIsJudgedInFullWithContactsFixed) {

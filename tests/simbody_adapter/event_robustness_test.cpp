@@ -134,6 +134,36 @@ TEST(EventRobustness, StringIsWoundUpWhileThePendulumTurnsOver) {
     for (const Real accuracy : {1e-1, 1e-2, 1e-3, 1e-6}) EXPECT_GE(expectEveryCatchSeen(accuracy, 2.5, 4), 1);
 }
 
+/** The side, and how far the string is wound on, are variables of the State: a copy has them, a fresh State at the same
+pose has the straight string, and neither disturbs the other. */
+TEST(EventRobustness, WindingBelongsToTheState) {
+    PinnedPendulum scene;
+    SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+    integrator.setAccuracy(1e-6);
+    SimTK::TimeStepper stepper(scene.system, integrator);
+    stepper.initialize(scene.makeStart(2.5, 4));
+    Real longestArc = 0;
+    for (int i = 1; longestArc < 1.2 * SimTK::Pi * scene.radius; ++i) {
+        ASSERT_LT(i, 3000) << "the string was never wound up";
+        stepper.stepTo(0.01 * i);
+        scene.system.realize(integrator.getState(), Stage::Position);
+        longestArc = scene.cable.getArcLength(integrator.getState(), scene.pin);
+    }
+    const State& wound = integrator.getState();
+    const Real length = scene.cable.getLength(wound), arc = scene.cable.getArcLength(wound, scene.pin);
+    State fresh = scene.system.getDefaultState();
+    fresh.updQ() = wound.getQ();
+    scene.system.realize(fresh, Stage::Position);
+    EXPECT_LT(scene.cable.getLength(fresh), length - 0.01);
+    EXPECT_LT(scene.cable.getArcLength(fresh, scene.pin), SimTK::Pi * scene.radius);
+    State copy = wound;
+    EXPECT_LT(copy.getSystemStage(), Stage::Position);
+    scene.system.realize(copy, Stage::Position);
+    EXPECT_NEAR(scene.cable.getLength(copy), length, 1e-14);
+    EXPECT_NEAR(scene.cable.getArcLength(copy, scene.pin), arc, 1e-14);
+    EXPECT_EQ(scene.cable.getLength(wound), length);
+}
+
 /** A string through a ring, both ends carried sideways as x = a sin(w t), far beyond the ring's tube. */
 struct PulledRing : BareScene {
     explicit PulledRing(bool isDriven = true) {

@@ -65,6 +65,10 @@ TEST(OrderIndependence, FramesInOrderAndShuffledGiveTheSameAnswers) {
     const State state = scene.makeState(0);
     const auto answers = follow(scene, state, makeOrder(0));
     for (const unsigned seed : {1u, 2u, 3u}) EXPECT_EQ(follow(scene, state, makeOrder(seed)), answers);
+    // Each is the one of a State in which nothing was asked before.
+    MechanismScene twin;
+    for (int frame = 0; frame < kNumFrames; ++frame)
+        EXPECT_EQ(calcNumbers(twin, makeFrame(twin, twin.makeState(0), frame)), answers[frame]) << "frame " << frame;
     std::size_t numTouched = 0;
     for (const std::vector<Real>& answer : answers) numTouched += answer[answer.size() - 9] != 0;
     EXPECT_GT(numTouched, 4u);

@@ -38,15 +38,16 @@ struct ContactEvent {
 /** What a cable's solves have cost since construction or the last reset, over all States and threads. */
 struct CableStatistics {
     long numSolves = 0;
-    long numColdSolves = 0;     ///< started anew instead of continued
-    long numFailures = 0;       ///< ended as NotConverged
-    long numIterations = 0;     ///< of Newton's method
-    long numShots = 0;          ///< geodesics shot
-    long numContactEvents = 0;  ///< contacts made or lost by the event handlers
-    long numHolesLeft = 0;      ///< rings that the cable went through in a step
-    double seconds = 0;         ///< spent in the solver
-    long numSteps = 0;          ///< accepted steps that CableSubsystem::countStep() was told of
-    long numDegradedSteps = 0;  ///< of those, with a status other than Solved: Cable::calcStatus()
+    long numColdSolves = 0;       ///< started anew instead of continued
+    long numFailures = 0;         ///< ended as NotConverged
+    long numIterations = 0;       ///< of Newton's method
+    long numShots = 0;            ///< geodesics shot
+    long numContactEvents = 0;    ///< contacts made or lost by the event handlers
+    long numHolesLeft = 0;        ///< rings that the cable went through in a step
+    double seconds = 0;           ///< spent in the solver
+    long numSteps = 0;            ///< accepted steps that CableSubsystem::countStep() was told of
+    long numDegradedSteps = 0;    ///< of those, with a status other than Solved: Cable::calcStatus()
+    double largestPathError = 0;  ///< in those steps: Cable::getPathError(), NaN if it once was that
 };
 
 /** A taut, frictionless, massless string from a point on one body over via points and smooth obstacles on
@@ -132,6 +133,8 @@ public:
     SimTK::MobilizedBodyIndex getElementBody(CableElementIndex element) const;
     /** X_BE: the station of a point, the pose of a surface. Of a moving point not its present one. */
     SimTK::Transform getElementFrame(CableElementIndex element) const;
+    /** Whether there is a point that moves on its body, or holds the cable only under a condition. */
+    bool hasMovingPoints() const;
     /** Null for points. */
     std::shared_ptr<const Surface> getSurface(CableElementIndex element) const;
     ///@}
@@ -223,6 +226,10 @@ public:
     ///@{
     /** Exact dL/dt [m/s]. */
     SimTK::Real getLengthRate(const SimTK::State& state) const;
+    /** What of the length's second derivative comes from the velocities alone [m/s^2]: d2L/dt2 = this - sum F_B . A_GB
+    with the unit forces F_B and the bodies' accelerations. It jumps where contact changes. A cable with moving points
+    has none: an error. */
+    SimTK::Real getLengthAccelerationBias(const SimTK::State& state) const;
     /** Power of the forces that a tension [N] puts on the bodies [W]: -tension * length rate. */
     SimTK::Real calcPower(const SimTK::State& state, SimTK::Real tension) const;
     ///@}

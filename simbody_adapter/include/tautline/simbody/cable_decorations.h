@@ -1,13 +1,15 @@
 #pragma once
 #include <Simbody.h>
 
-#include "tautline/simbody/cable_subsystem.h"
+#include <map>
+
+#include "tautline/simbody/cable.h"
 
 namespace tautline {
 
-/** Draws all cables of a subsystem and the obstacles whose shape a Visualizer knows (sphere, cylinder,
-ellipsoid, torus, any ContactGeometry), touched ones in a colour of their own: `visualizer.addDecorationGenerator(new
-CableDecorations(cables))`. */
+/** Draws all cables of a subsystem and their obstacles, touched ones in a colour of their own:
+`visualizer.addDecorationGenerator(new CableDecorations(cables))`. Sphere, cylinder, ellipsoid and torus are Simbody's
+own shapes, every other surface is a mesh (calcSurfaceMesh()), laid when it is first drawn. */
 class CableDecorations : public SimTK::DecorationGenerator {
 public:
     /** @param cables   must outlive the visualizer, as its system does */
@@ -19,18 +21,31 @@ public:
     /** Draws the frames at both ends of each arc (see Cable::getContactFrames()). @param length   of their axes [m];
     0, the default: none */
     CableDecorations& setContactFrameSize(SimTK::Real length);
-    /** Half length drawn of infinite cylinders, in radii. */
-    CableDecorations& setCylinderHalfLength(SimTK::Real radii);
+    /** How far surfaces without end are drawn to each side, farther only where a cable touches them. @param sizes   in
+    their characteristic lengths, of cylinders in radii, positive; 3 by default */
+    CableDecorations& setExtent(SimTK::Real sizes);
 
     /** Realizes the state to Position where it is not. */
     void generateDecorations(const SimTK::State& state, SimTK::Array_<SimTK::DecorativeGeometry>& geometry) override;
 
 private:
+    /** The mesh of a surface, the box in S that holds what is drawn, and the contact points that called for it. */
+    struct Picture {
+        SimTK::PolygonalMesh mesh;
+        Eigen::AlignedBox3d box;
+        std::vector<Vec3> touched_S;
+    };
+
+    SimTK::DecorativeGeometry calcPicture(const Cable& cable, CableElementIndex obstacle, const SimTK::State& state);
+    const SimTK::PolygonalMesh& findMesh(const std::shared_ptr<const Surface>& surface,
+                                         const std::vector<Vec3>& touched_S);
+
     const CableSubsystem& m_cables;
     SimTK::Vec3 m_cableColor = SimTK::Red;
     SimTK::Vec3 m_surfaceColor = SimTK::Cyan;
     SimTK::Vec3 m_touchedSurfaceColor = SimTK::Orange;
-    SimTK::Real m_cylinderHalfLength = 3, m_contactFrameSize = 0;
+    SimTK::Real m_extent = 3, m_contactFrameSize = 0;
+    std::map<std::shared_ptr<const Surface>, Picture> m_pictures;
 };
 
 }  // namespace tautline

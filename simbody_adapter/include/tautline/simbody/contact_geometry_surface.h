@@ -27,7 +27,7 @@ public:
     std::string getDescription() const override;
     double getSize() const override { return m_size; }
     ImplicitValue calcImplicit(const Vec3& p_S) const override;
-    bool isInDomain(const SurfacePoint& point) const override;
+    double calcDomainMargin(const SurfacePoint& point) const override;
 
 private:
     SimTK::ContactGeometry m_geometry;
