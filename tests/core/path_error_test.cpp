@@ -32,7 +32,7 @@ public:
     const Chain& getChain() const { return m_chain; }
 
     MatrixXd calcJacobian() const {
-        BandedSolver band(kPathBandwidth, kPathBandwidth);
+        PathJacobian band;
         calcPathErrorJacobian(m_chain, band);
         MatrixXd dense = MatrixXd::Zero(band.getSize(), band.getSize());
         for (int row = 0; row < dense.rows(); ++row)

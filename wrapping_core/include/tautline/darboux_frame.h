@@ -23,7 +23,9 @@ struct DarbouxFrame {
     double calcGaussianCurvature() const { return kappaN * kappaB - tauG * tauG; }
 
     /** The same frame seen from the frame in which its own basis has pose X. */
-    DarbouxFrame reexpressedBy(const Pose& X) const { return {X * x, X.R * t, X.R * N, X.R * B, kappaN, tauG, kappaB}; }
+    DarbouxFrame reexpressedBy(const Pose& X) const {
+        return {X * x, X.rotate(t), X.rotate(N), X.rotate(B), kappaN, tauG, kappaB};
+    }
 };
 
 /** The unit tangent nearest a direction; any tangent for a direction along the normal. */

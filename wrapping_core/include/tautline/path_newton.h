@@ -1,4 +1,5 @@
 #pragma once
+#include "tautline/banded_solver.h"
 #include "tautline/path_error.h"
 #include "tautline/path_problem.h"
 #include "tautline/path_solution.h"
@@ -38,7 +39,7 @@ private:
 
     PathSolverOptions m_options;
     Chain m_chain, m_trial;
-    BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
+    PathJacobian m_jacobian;
     BandedSolver m_normal{2 * kPathBandwidth, 2 * kPathBandwidth};  ///< J^T J + damping, only when Newton fails
     std::vector<double> m_eps, m_trialEps, m_step;
 };

@@ -21,6 +21,7 @@ public:
     }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
+    DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override;
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
     void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const override;
 
