@@ -7,37 +7,41 @@ namespace tautline {
 
 void Chain::build(const PathProblem& problem, const PathPose& pose,
                   const std::vector<ObstacleContact>& elementContacts) {
-    contacts.clear();
-    segments.clear();
+    // Entries are used again as they stand: shootChain() sets all that is not set here.
+    std::size_t numContacts = 0, numSegments = 0;
     int previousElement = -1, previousContact = -1;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const bool isPoint = problem.getElement(e).isPoint();
         if (!pose.hasElement(e) || (!isPoint && !elementContacts[e].isTouched)) continue;
-        const int contact = isPoint ? -1 : static_cast<int>(contacts.size());
+        const int contact = isPoint ? -1 : static_cast<int>(numContacts);
         if (!isPoint) {
-            contacts.emplace_back();
-            contacts.back().element = e;
-            contacts.back().start = elementContacts[e].start;
-            contacts.back().segmentIn = static_cast<int>(segments.size());
+            if (numContacts == contacts.size()) contacts.emplace_back();
+            ChainContact& added = contacts[numContacts++];
+            added.element = e;
+            added.start = elementContacts[e].start;
+            added.segmentIn = static_cast<int>(numSegments);
         }
         if (previousElement >= 0) {
-            segments.emplace_back();
-            ChainSegment& segment = segments.back();
-            segment.line.fromElement = previousElement, segment.line.toElement = e;
-            segment.fromContact = previousContact, segment.toContact = contact;
+            if (numSegments == segments.size()) segments.emplace_back();
+            ChainSegment& added = segments[numSegments++];
+            added.line.fromElement = previousElement, added.line.toElement = e;
+            added.fromContact = previousContact, added.toContact = contact;
         }
         previousElement = e, previousContact = contact;
     }
+    contacts.resize(numContacts);
+    segments.resize(numSegments);
 }
 
 bool shootChain(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options, Chain& chain) {
+    bool isFinite = true;
     for (ChainContact& contact : chain.contacts) {
-        problem.getElement(contact.element).surface->shootGeodesic(contact.start, options, contact.geodesic);
-        if (!contact.geodesic.converged || !contact.geodesic.Q.x.allFinite() || !contact.geodesic.Q.t.allFinite())
-            return false;
+        Geodesic& geodesic = contact.geodesic;
+        problem.getElement(contact.element).surface->shootGeodesic(contact.start, options, geodesic);
+        isFinite = isFinite && geodesic.converged && geodesic.Q.x.allFinite() && geodesic.Q.t.allFinite();
         const Pose& X_GS = pose.X_GE[contact.element];
-        contact.P = contact.geodesic.P.reexpressedBy(X_GS);
-        contact.Q = contact.geodesic.Q.reexpressedBy(X_GS);
+        contact.P = geodesic.P.reexpressedBy(X_GS);
+        contact.Q = geodesic.Q.reexpressedBy(X_GS);
     }
     for (ChainSegment& segment : chain.segments) {
         StraightSegment& line = segment.line;
@@ -53,7 +57,7 @@ bool shootChain(const PathProblem& problem, const PathPose& pose, const Geodesic
         else
             line.e = segment.fromContact >= 0 ? chain.contacts[segment.fromContact].Q.t : Vec3(Vec3::UnitX());
     }
-    return true;
+    return isFinite;
 }
 
 double calcPathError(const Chain& chain, std::vector<double>& eps) {

@@ -17,7 +17,7 @@ inline double calcEighthRoot(double x) {
 through at `accuracy`. Only a guess: the error estimate has the last word. */
 inline double calcFirstStep(const DarbouxFrame& P, double accuracy) {
     const double curvature = std::max({std::abs(P.kappaN), std::abs(P.kappaB), std::abs(P.tauG)});
-    const double angle = std::clamp(3.5 * calcEighthRoot(accuracy), 0.02, 2.0);
+    const double angle = std::clamp(4.0 * calcEighthRoot(accuracy), 0.02, 2.0);
     return curvature > 0 ? angle / curvature : kInfinity;
 }
 
@@ -59,8 +59,8 @@ void integrateGeodesic(Equations& equations, typename Equations::State& y, doubl
         for (int i = 0; i < 4; ++i)  // relative to fields that have grown
             weights[kA + i] = jacobiUnits[i] / std::max(1.0, jacobiUnits[i] * std::abs(y[kA + i]));
         const double e5 = weights.cwiseProduct(error5).squaredNorm(), e3 = weights.cwiseProduct(error3).squaredNorm();
-        // Error estimate of the 8(5,3) pair (Hairer, Norsett, Wanner, Sec. II.10).
-        const double error = e5 > 0 ? e5 / std::sqrt(e5 + 0.01 * e3) : 0;
+        // Error estimate of the 8(5,3) pair, in the root mean square of the components (Hairer, Norsett, Wanner, Sec. II.10).
+        const double error = e5 > 0 ? e5 / std::sqrt((e5 + 0.01 * e3) * Equations::n) : 0;
         if (!std::isfinite(error) || !yNew.allFinite()) {
             step = std::abs(h) * kMinFactor;
             continue;

@@ -35,7 +35,8 @@ struct Chain {
     std::vector<ChainContact> contacts;
     std::vector<ChainSegment> segments;
 
-    /** Sets stops and segments from the touched, active elements; starts come from `contacts`. */
+    /** Sets stops and segments from the touched, active elements; starts come from `contacts`. Geodesics, frames and
+    lines are left for shootChain(). */
     void build(const PathProblem& problem, const PathPose& pose, const std::vector<ObstacleContact>& elementContacts);
 };
 
