@@ -1,26 +1,55 @@
 #pragma once
-/** One step of the Dormand-Prince Runge-Kutta pair of order 8(5,3) on fixed-size vectors.
+/** Steps of Runge-Kutta pairs of Dormand and Prince on fixed-size vectors, for autonomous right-hand sides.
 
 The coefficients are those published by E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary
-Differential Equations I (2nd ed. 1993), Sec. II.5. Order 8 pays even at loose tolerances here: an arc of
-a radian is one step, and the right-hand side is cheap against the set-up of a step. */
+Differential Equations I (2nd ed. 1993), Sec. II.5: Table 5.2 for order 5(4), the program's of Sec. II.10 for 8(5,3). */
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace tautline {
 
-/** Step from y over h, with the error estimate of the pair; autonomous right-hand side.
+/** The pair of order 8(5,3): where an arc of a radian has many digits in one step.
+
+Either pair's step goes from y over h. A stage waits for the slope before it alone: what that adds comes last.
 @param derivative   callable: void(const State& y, State& dydx)
 @param k1           derivative at y
-@param yNew         result of order 8
-@param error        per component, already multiplied by h */
+@param weights      1 over the size that counts as 1 for each component
+@param yNew         result
+@return the pair's error estimate, in the root mean square of the weighted components; not finite if a slope is not */
+struct DormandPrince853 {
+    /** By which factor a step may grow for its error to grow by `errorRatio`; three roots are quicker than a power. */
+    static double calcStepRatio(double errorRatio) { return std::sqrt(std::sqrt(std::sqrt(errorRatio))); }
+
+    /** About two thirds of the angle that the pair gets through on a sphere, 6.6 accuracy^(1/8). */
+    static double calcFirstAngle(double accuracy) { return std::min(4 * calcStepRatio(accuracy), 2.0); }
+
+    template <int n, class Derivative>
+    static double step(const Derivative& derivative, const Eigen::Matrix<double, n, 1>& y,
+                       const Eigen::Matrix<double, n, 1>& k1, double h, const Eigen::Matrix<double, n, 1>& weights,
+                       Eigen::Matrix<double, n, 1>& yNew);
+};
+
+/** The pair of order 5(4): half the work of a step, where few digits are asked. */
+struct DormandPrince54 {
+    static double calcStepRatio(double errorRatio) { return std::pow(errorRatio, 0.2); }
+
+    /** The angle on a sphere is 3.8 accuracy^(1/5), 0.6 for 1e-4 and 0.9 for 1e-3; less, and no power, serves as well.
+     */
+    static double calcFirstAngle(double accuracy) { return std::min(4 * std::sqrt(std::sqrt(accuracy)), 1.0); }
+
+    template <int n, class Derivative>
+    static double step(const Derivative& derivative, const Eigen::Matrix<double, n, 1>& y,
+                       const Eigen::Matrix<double, n, 1>& k1, double h, const Eigen::Matrix<double, n, 1>& weights,
+                       Eigen::Matrix<double, n, 1>& yNew);
+};
+
 template <int n, class Derivative>
-void stepDormandPrince853(const Derivative& derivative, const Eigen::Matrix<double, n, 1>& y,
-                          const Eigen::Matrix<double, n, 1>& k1, double h, Eigen::Matrix<double, n, 1>& yNew,
-                          Eigen::Matrix<double, n, 1>& error5, Eigen::Matrix<double, n, 1>& error3) {
+double DormandPrince853::step(const Derivative& derivative, const Eigen::Matrix<double, n, 1>& y,
+                              const Eigen::Matrix<double, n, 1>& k1, double h,
+                              const Eigen::Matrix<double, n, 1>& weights, Eigen::Matrix<double, n, 1>& yNew) {
     using State = Eigen::Matrix<double, n, 1>;
-    State at, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12;
-    // A stage waits for the slope before it alone: what it adds to the others comes last.
+    State at, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, error5, error3;
     const auto stage = [&](auto sum, double lastWeight, const State& last, State& k) {
         const double hLast = h * lastWeight;
         for (int i = 0; i < n; ++i) at[i] = (y[i] + h * sum(i)) + hLast * last[i];
@@ -91,6 +120,37 @@ void stepDormandPrince853(const Derivative& derivative, const Eigen::Matrix<doub
                          0.8192320648511571246570742613e-1 * k11[i] - 0.2235530786388629525884427845e-1 * k12[i]);
         yNew[i] = y[i] + h * slope;
     }
+    const double e5 = weights.cwiseProduct(error5).squaredNorm(), e3 = weights.cwiseProduct(error3).squaredNorm();
+    return e5 > 0 ? e5 / std::sqrt((e5 + 0.01 * e3) * n) : e5;  // NaN stays NaN
+}
+
+template <int n, class Derivative>
+double DormandPrince54::step(const Derivative& derivative, const Eigen::Matrix<double, n, 1>& y,
+                             const Eigen::Matrix<double, n, 1>& k1, double h,
+                             const Eigen::Matrix<double, n, 1>& weights, Eigen::Matrix<double, n, 1>& yNew) {
+    using State = Eigen::Matrix<double, n, 1>;
+    State at, k2, k3, k4, k5, k6, k7, error;
+    const auto stage = [&](auto sum, double lastWeight, const State& last, State& k) {
+        const double hLast = h * lastWeight;
+        for (int i = 0; i < n; ++i) at[i] = (y[i] + h * sum(i)) + hLast * last[i];
+        derivative(at, k);
+    };
+    stage([&](int) { return 0.0; }, 1.0 / 5, k1, k2);
+    stage([&](int i) { return 3.0 / 40 * k1[i]; }, 9.0 / 40, k2, k3);
+    stage([&](int i) { return 44.0 / 45 * k1[i] - 56.0 / 15 * k2[i]; }, 32.0 / 9, k3, k4);
+    stage([&](int i) { return 19372.0 / 6561 * k1[i] - 25360.0 / 2187 * k2[i] + 64448.0 / 6561 * k3[i]; }, -212.0 / 729,
+          k4, k5);
+    stage(
+        [&](int i) { return 9017.0 / 3168 * k1[i] - 355.0 / 33 * k2[i] + 46732.0 / 5247 * k3[i] + 49.0 / 176 * k4[i]; },
+        -5103.0 / 18656, k5, k6);
+    stage(
+        [&](int i) { return 35.0 / 384 * k1[i] + 500.0 / 1113 * k3[i] + 125.0 / 192 * k4[i] - 2187.0 / 6784 * k5[i]; },
+        11.0 / 84, k6, k7);
+    yNew = at;
+    for (int i = 0; i < n; ++i)
+        error[i] = h * (71.0 / 57600 * k1[i] - 71.0 / 16695 * k3[i] + 71.0 / 1920 * k4[i] - 17253.0 / 339200 * k5[i] +
+                        22.0 / 525 * k6[i] - 1.0 / 40 * k7[i]);
+    return weights.cwiseProduct(error).norm() / std::sqrt(double(n));
 }
 
 }  // namespace tautline
