@@ -42,7 +42,7 @@ PathIteration calcErrors(const Chain& chain, const std::vector<double>& eps, std
 }
 
 /** xi = -J^-1 eps, and each geodesic's start corrected by it (thesis Eqn. 4.57, Sec. 4.5). */
-bool correctStarts(const PathProblem& problem, const std::vector<double>& eps, BandedSolver& jacobian, Chain& chain) {
+bool correctStarts(const PathProblem& problem, const std::vector<double>& eps, PathJacobian& jacobian, Chain& chain) {
     calcPathErrorJacobian(chain, jacobian);
     std::vector<double> step(eps.size());
     std::transform(eps.begin(), eps.end(), step.begin(), [](double error) { return -error; });
@@ -92,7 +92,7 @@ IteratedPath iteratePath(const PathInPose& path, const PathStart& start, double 
     result.start = start;
     Chain chain;
     chain.build(path.problem, path.pose, makeContacts(start));
-    BandedSolver jacobian(kPathBandwidth, kPathBandwidth);
+    PathJacobian jacobian;
     std::vector<double> eps;
     for (int i = 0;; ++i) {
         if (!shootChain(path.problem, path.pose, GeodesicOptions(), chain)) break;

@@ -324,8 +324,10 @@ TEST(GeodesicReference, AccuracyControlsTheError) {
             const Geodesic g = shoot(*surface, {{ref.P}, ref.t, 0}, ref.length, {accuracy, 5000});
             // Local errors add up over the steps; the growth of each is in calcError already.
             EXPECT_LT(ref.calcError(g), 10 * accuracy * g.steps);
-            EXPECT_GE(g.steps, steps);
-            steps = g.steps;
+            if (accuracy < 1e-3) {  // where it takes a pair of lower order, whose steps are more and cheaper
+                EXPECT_GE(g.steps, steps);
+                steps = g.steps;
+            }
             (accuracy == 1e-3 ? loosest : tightest) = ref.calcError(g);
         }
         EXPECT_LT(tightest, 1e-3 * loosest);

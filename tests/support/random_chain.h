@@ -40,7 +40,7 @@ public:
     }
 
     Eigen::MatrixXd calcJacobian() const {
-        BandedSolver band(kPathBandwidth, kPathBandwidth);
+        PathJacobian band;
         calcPathErrorJacobian(m_chain, band);
         Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(band.getSize(), band.getSize());
         for (int row = 0; row < dense.rows(); ++row)

@@ -5,7 +5,7 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
-# -O3 builds a fifth longer and runs no faster: the inner loops are on fixed sizes.
+# -O3 for all builds a fifth longer; tautline_optimize_fully() is for the sources that a warm step runs through.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 
@@ -13,6 +13,12 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 # header with others.
 function(tautline_optimize_lightly)
     set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>"
+                                                       SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
+# tautline_optimize_fully(<sources>): for those of a warm step, which is a tenth quicker so: mostly by inlining.
+function(tautline_optimize_fully)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>"
                                                        SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 

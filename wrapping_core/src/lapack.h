@@ -1,10 +1,6 @@
 #pragma once
 /** The only file that declares LAPACK routines. */
 extern "C" {
-/** Factors a general band matrix with partial pivoting and solves for nrhs right-hand sides. */
-void dgbsv_(const int* n, const int* kl, const int* ku, const int* nrhs, double* ab, const int* ldab, int* ipiv,
-            double* b, const int* ldb, int* info);
-
 /** Factors a symmetric indefinite matrix as L D L^T with pivots of one or two rows; then solves with the factor. */
 void dsytrf_(const char* uplo, const int* n, double* a, const int* lda, int* ipiv, double* work, const int* lwork,
              int* info);

@@ -7,37 +7,41 @@ namespace tautline {
 
 void Chain::build(const PathProblem& problem, const PathPose& pose,
                   const std::vector<ObstacleContact>& elementContacts) {
-    contacts.clear();
-    segments.clear();
+    // Entries are used again as they stand: shootChain() sets all that is not set here.
+    std::size_t numContacts = 0, numSegments = 0;
     int previousElement = -1, previousContact = -1;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const bool isPoint = problem.getElement(e).isPoint();
         if (!pose.hasElement(e) || (!isPoint && !elementContacts[e].isTouched)) continue;
-        const int contact = isPoint ? -1 : static_cast<int>(contacts.size());
+        const int contact = isPoint ? -1 : static_cast<int>(numContacts);
         if (!isPoint) {
-            contacts.emplace_back();
-            contacts.back().element = e;
-            contacts.back().start = elementContacts[e].start;
-            contacts.back().segmentIn = static_cast<int>(segments.size());
+            if (numContacts == contacts.size()) contacts.emplace_back();
+            ChainContact& added = contacts[numContacts++];
+            added.element = e;
+            added.start = elementContacts[e].start;
+            added.segmentIn = static_cast<int>(numSegments);
         }
         if (previousElement >= 0) {
-            segments.emplace_back();
-            ChainSegment& segment = segments.back();
-            segment.line.fromElement = previousElement, segment.line.toElement = e;
-            segment.fromContact = previousContact, segment.toContact = contact;
+            if (numSegments == segments.size()) segments.emplace_back();
+            ChainSegment& added = segments[numSegments++];
+            added.line.fromElement = previousElement, added.line.toElement = e;
+            added.fromContact = previousContact, added.toContact = contact;
         }
         previousElement = e, previousContact = contact;
     }
+    contacts.resize(numContacts);
+    segments.resize(numSegments);
 }
 
 bool shootChain(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options, Chain& chain) {
+    bool isFinite = true;
     for (ChainContact& contact : chain.contacts) {
-        problem.getElement(contact.element).surface->shootGeodesic(contact.start, options, contact.geodesic);
-        if (!contact.geodesic.converged || !contact.geodesic.Q.x.allFinite() || !contact.geodesic.Q.t.allFinite())
-            return false;
+        Geodesic& geodesic = contact.geodesic;
+        problem.getElement(contact.element).surface->shootGeodesic(contact.start, options, geodesic);
+        isFinite = isFinite && geodesic.converged && geodesic.Q.x.allFinite() && geodesic.Q.t.allFinite();
         const Pose& X_GS = pose.X_GE[contact.element];
-        contact.P = contact.geodesic.P.reexpressedBy(X_GS);
-        contact.Q = contact.geodesic.Q.reexpressedBy(X_GS);
+        contact.P = geodesic.P.reexpressedBy(X_GS);
+        contact.Q = geodesic.Q.reexpressedBy(X_GS);
     }
     for (ChainSegment& segment : chain.segments) {
         StraightSegment& line = segment.line;
@@ -53,7 +57,7 @@ bool shootChain(const PathProblem& problem, const PathPose& pose, const Geodesic
         else
             line.e = segment.fromContact >= 0 ? chain.contacts[segment.fromContact].Q.t : Vec3(Vec3::UnitX());
     }
-    return true;
+    return isFinite;
 }
 
 double calcPathError(const Chain& chain, std::vector<double>& eps) {
@@ -102,45 +106,76 @@ FrameVariations calcEndVariations(const DarbouxFrame& Q, const Geodesic& geodesi
 
 namespace {
 
-/** Writes N.de + e.dN and B.de + e.dB of one end into two rows of the band. de = sign (I - e e^T) dx / l. */
-void addEndRows(const DarbouxFrame& frame, const StraightSegment& line, double sign,
-                const Eigen::Matrix<double, 3, kVariations>& dx, const FrameVariations* own, int row, int col,
-                BandedSolver& jacobian) {
-    const double scale = line.length > 0 ? sign / line.length : 0;
-    const double eN = line.e.dot(frame.N), eB = line.e.dot(frame.B);
-    for (int j = 0; j < kVariations; ++j) {
-        const double ex = line.e.dot(dx.col(j));
-        double forN = scale * (frame.N.dot(dx.col(j)) - eN * ex);  // Eqn. 4.53 to 4.56
-        double forB = scale * (frame.B.dot(dx.col(j)) - eB * ex);
-        if (own) {
-            forN += line.e.dot(own->N.col(j));
-            forB += line.e.dot(own->B.col(j));
-        }
-        jacobian.upd(row, col + j) = forN;
-        jacobian.upd(row + 1, col + j) = forB;
-    }
+/** The unit vector e of a segment seen from the end of an arc that it meets there, and 1/l, 0 where l is. */
+struct SegmentEnd {
+    double et = kNaN, eN = kNaN, eB = kNaN, inverseLength = kNaN;
+};
+
+SegmentEnd calcSegmentEnd(const StraightSegment& line, const DarbouxFrame& end) {
+    return {line.e.dot(end.t), line.e.dot(end.N), line.e.dot(end.B), line.length > 0 ? 1 / line.length : 0};
+}
+
+/** Derivatives of (e.N, e.B) at one end of an arc by the moves of a contact point along its t and B. */
+struct MoveDerivatives {
+    double N_t, N_B, B_t, B_B;
+};
+
+/** By the moves of that end itself: N.de + e.dN and B.de + e.dB with de = sign (I - e e^T) dx / l (Eqn. 4.53, 4.56),
+sign = 1 at P and -1 at Q, in components along the orthonormal trihedron. */
+MoveDerivatives calcOwnDerivatives(const DarbouxFrame& end, const SegmentEnd& seen, double sign) {
+    const double s = sign * seen.inverseLength, et = seen.et, eN = seen.eN, eB = seen.eB;
+    return {-s * eN * et - end.kappaN * et + end.tauG * eB, -s * eN * eB + end.tauG * et - end.kappaB * eB,
+            -s * eB * et - end.tauG * eN, s * (1 - eB * eB) + end.kappaB * eN};
+}
+
+/** By the moves of the segment's other end: N.de and B.de alone (Eqn. 4.54, 4.55). */
+MoveDerivatives calcOtherDerivatives(const DarbouxFrame& end, const SegmentEnd& seen, const DarbouxFrame& otherEnd,
+                                     const SegmentEnd& seenThere, double sign) {
+    const double s = sign * seen.inverseLength;
+    return {s * (end.N.dot(otherEnd.t) - seen.eN * seenThere.et), s * (end.N.dot(otherEnd.B) - seen.eN * seenThere.eB),
+            s * (end.B.dot(otherEnd.t) - seen.eB * seenThere.et), s * (end.B.dot(otherEnd.B) - seen.eB * seenThere.eB)};
+}
+
+/** The columns of an arc whose start P moves, along t and B: two rows. */
+void setStartColumns(const MoveDerivatives& d, double* rowN, double* rowB) {
+    rowN[0] = d.N_t, rowN[1] = d.N_B;
+    rowB[0] = d.B_t, rowB[1] = d.B_B;
+}
+
+/** The columns of an arc whose end Q moves, along t and, by the Jacobi fields, along B: two rows. */
+void setEndColumns(const MoveDerivatives& d, const Geodesic& geodesic, double* rowN, double* rowB) {
+    rowN[0] = d.N_t, rowN[1] = geodesic.a * d.N_B, rowN[2] = geodesic.r * d.N_B, rowN[3] = d.N_t;
+    rowB[0] = d.B_t, rowB[1] = geodesic.a * d.B_B, rowB[2] = geodesic.r * d.B_B, rowB[3] = d.B_t;
 }
 
 }  // namespace
 
-void calcPathErrorJacobian(const Chain& chain, BandedSolver& jacobian) {
+void calcPathErrorJacobian(const Chain& chain, PathJacobian& jacobian) {
+    constexpr int kNext = kVariations;  // where a row of Q holds the next contact's columns
     const int n = static_cast<int>(chain.contacts.size());
     jacobian.reset(kVariations * n);
-    FrameVariations previousEnd;  // of the contact before, whose Q begins our incoming segment
+    SegmentEnd atP;
     for (int i = 0; i < n; ++i) {
         const ChainContact& contact = chain.contacts[i];
+        const Geodesic& geodesic = contact.geodesic;
         const ChainSegment &in = chain.segments[contact.segmentIn], &out = chain.segments[contact.segmentIn + 1];
-        const FrameVariations dP = calcStartVariations(contact.P), dQ = calcEndVariations(contact.Q, contact.geodesic);
-        const int row = kVariations * i;
-        addEndRows(contact.P, in.line, 1, dP.x, &dP, row, row, jacobian);
-        addEndRows(contact.Q, out.line, -1, dQ.x, &dQ, row + 2, row, jacobian);
-        if (in.fromContact >= 0)
-            addEndRows(contact.P, in.line, -1, previousEnd.x, nullptr, row, row - kVariations, jacobian);
-        if (out.toContact >= 0) {
-            const FrameVariations dNext = calcStartVariations(chain.contacts[i + 1].P);
-            addEndRows(contact.Q, out.line, 1, dNext.x, nullptr, row + 2, row + kVariations, jacobian);
-        }
-        previousEnd = dQ;
+        if (in.fromContact < 0) atP = calcSegmentEnd(in.line, contact.P);
+        const SegmentEnd atQ = calcSegmentEnd(out.line, contact.Q);
+        double* rows[kVariations];
+        for (int row = 0; row < kVariations; ++row) rows[row] = jacobian.updRow(kVariations * i + row);
+        double *ownN = rows[0] + PathJacobian::kOwnColumns, *ownB = rows[1] + PathJacobian::kOwnColumns;
+        setStartColumns(calcOwnDerivatives(contact.P, atP, 1), ownN, ownB);
+        ownB[2] = -atP.et;  // Eqn. 4.45
+        setEndColumns(calcOwnDerivatives(contact.Q, atQ, -1), geodesic, rows[2], rows[3]);
+        rows[3][1] -= geodesic.aDot * atQ.et;  // Eqn. 4.29
+        rows[3][2] -= geodesic.rDot * atQ.et;  // Eqn. 4.44
+        if (out.toContact < 0) continue;
+        const ChainContact& next = chain.contacts[i + 1];
+        const SegmentEnd atNext = calcSegmentEnd(out.line, next.P);
+        setStartColumns(calcOtherDerivatives(contact.Q, atQ, next.P, atNext, 1), rows[2] + kNext, rows[3] + kNext);
+        setEndColumns(calcOtherDerivatives(next.P, atNext, contact.Q, atQ, -1), geodesic,
+                      jacobian.updRow(kVariations * (i + 1)), jacobian.updRow(kVariations * (i + 1) + 1));
+        atP = atNext;
     }
 }
 

@@ -38,7 +38,7 @@ bool PathStepper::begin(const PathProblem& problem, const PathPose& pose, PathSo
     m_problem = &problem, m_pose = &pose;
     path.errorHistory.clear();
     m_chain.build(problem, pose, path.contacts);
-    m_trial = m_chain;  // the same contacts and segments; steps change the geodesics only
+    m_trial.build(problem, pose, path.contacts);
     const bool isFinite = shootChain(problem, pose, m_options.geodesics, m_chain);
     if (!isFinite) shortenBrokenArcs();
     path.shots += static_cast<int>(m_chain.contacts.size());

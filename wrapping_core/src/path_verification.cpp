@@ -25,7 +25,7 @@ bool pressesEverywhere(const Surface& surface, const ObstacleContact& contact) {
 /** True if a straight segment that leaves the surface at one end dips below it elsewhere. */
 bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSegment& line) {
     if (surface.isConvex() || !(line.length > 0)) return false;
-    const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.R.transpose() * line.e;
+    const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.rotateBack(line.e);
     // Near the tangent end the height is rounding of a square: judge beyond a margin only.
     Vec3 N;
     const double s = surface.findLowestPoint(A_S, e_S, line.length);
@@ -45,7 +45,8 @@ Condition verifyContact(const Surface& surface, const Pose& X_GS, const Obstacle
                         const StraightSegment& in, const StraightSegment& out, double shortestArc) {
     const Geodesic& arc = contact.geodesic;
     if (!isInDomain(surface, contact)) return Condition::OutsideDomain;
-    if (!(in.e.dot(X_GS.R * arc.P.t) > 0) || !(out.e.dot(X_GS.R * arc.Q.t) > 0)) return Condition::ReversedTangent;
+    if (!(in.e.dot(X_GS.rotate(arc.P.t)) > 0) || !(out.e.dot(X_GS.rotate(arc.Q.t)) > 0))
+        return Condition::ReversedTangent;
     if (contact.start.length < shortestArc * surface.getSize()) return Condition::NegativeLength;
     if (arc.hasConjugatePoint && contact.start.length > 0) return Condition::ConjugatePoint;
     if (!pressesEverywhere(surface, contact)) return Condition::PullsOutward;
@@ -69,11 +70,11 @@ int findUnstableContact(const PathProblem& problem, const PathPose& pose, const 
         const int e = in.toElement;
         if (problem.getElement(e).isPoint()) continue;
         const Geodesic& arc = path.contacts[e].geodesic;
-        const Mat3& R = pose.X_GE[e].R;
+        const Pose& X_GS = pose.X_GE[e];
         // From a fixed point y : y' = l : 1; from an arc, the pivot.
         double y = in.length, slope = 1;
         if (!problem.getElement(in.fromElement).isPoint()) {
-            const double twist = BQ.dot(R * arc.P.B);
+            const double twist = BQ.dot(X_GS.rotate(arc.P.B));
             y = 1, slope = 1 / in.length - twist * twist / (in.length * in.length * (sigmaQ + 1 / in.length));
         }
         const double yQ = arc.a * y + arc.r * slope, slopeQ = arc.aDot * y + arc.rDot * slope;
@@ -83,7 +84,7 @@ int findUnstableContact(const PathProblem& problem, const PathPose& pose, const 
         const double margin = isLast ? -kNeutral * (std::abs(bend) + std::abs(yQ)) : 0;
         if (!(yQ > 0) || !(bend + yQ > margin)) return e;
         sigmaQ = slopeQ / yQ;
-        BQ = R * arc.Q.B;
+        BQ = X_GS.rotate(arc.Q.B);
     }
     return -1;
 }
@@ -111,10 +112,9 @@ Vec3 findPlace(const Surface& surface, const Pose& X_GS, const ObstacleContact& 
                const StraightSegment& in, const StraightSegment& out) {
     if (condition == Condition::Penetration) {
         const StraightSegment& line = meetsOwnSurface(surface, X_GS, in) ? in : out;
-        return line.A +
-               surface.findLowestPoint(X_GS.shiftBack(line.A), X_GS.R.transpose() * line.e, line.length) * line.e;
+        return line.A + surface.findLowestPoint(X_GS.shiftBack(line.A), X_GS.rotateBack(line.e), line.length) * line.e;
     }
-    const bool isAtEnd = condition == Condition::ReversedTangent && in.e.dot(X_GS.R * contact.geodesic.P.t) > 0;
+    const bool isAtEnd = condition == Condition::ReversedTangent && in.e.dot(X_GS.rotate(contact.geodesic.P.t)) > 0;
     return X_GS * findPlaceOnArc(surface, contact, condition, isAtEnd);
 }
 

@@ -44,9 +44,18 @@ SurfacePoint Sphere::findSurfacePoint(const Vec3& p_S) const {
     return {m_radius * N};
 }
 
+DarbouxFrame Sphere::calcFrame(const SurfacePoint& point, const Vec3& direction_S) const {
+    DarbouxFrame frame;
+    const double distance = point.p.norm();
+    frame.x = point.p, frame.N = point.p / distance;
+    frame.t = makeTangent(direction_S, frame.N), frame.B = frame.t.cross(frame.N);
+    frame.kappaN = frame.kappaB = -1 / distance, frame.tauG = 0;
+    return frame;
+}
+
 void Sphere::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Geodesic& geodesic) const {
     const double angle = start.length / m_radius, c = std::cos(angle), s = std::sin(angle);
-    DarbouxFrame P = calcFrame(start.point, start.tangent);
+    const DarbouxFrame P = Sphere::calcFrame(start.point, start.tangent);
     geodesic.P = geodesic.Q = P;
     geodesic.Q.N = c * P.N + s * P.t;  // B stays: a great circle has no torsion
     geodesic.Q.t = c * P.t - s * P.N;
@@ -78,7 +87,7 @@ std::string Cylinder::getDescription() const {
 }
 
 double Cylinder::calcHeight(const Vec3& p_S, Vec3& N_S) const {
-    const double rho = std::hypot(p_S.x(), p_S.y());
+    const double rho = p_S.head<2>().norm();
     N_S = rho > 0 ? Vec3(p_S.x() / rho, p_S.y() / rho, 0) : Vec3(Vec3::UnitX());
     return rho - m_radius;
 }
@@ -89,8 +98,20 @@ SurfacePoint Cylinder::findSurfacePoint(const Vec3& p_S) const {
     return {Vec3(m_radius * N.x(), m_radius * N.y(), p_S.z())};
 }
 
+/** N turns by the part of a displacement that is across the axis, over rho. */
+DarbouxFrame Cylinder::calcFrame(const SurfacePoint& point, const Vec3& direction_S) const {
+    DarbouxFrame frame;
+    const double rho = point.p.head<2>().norm();
+    frame.x = point.p, frame.N = Vec3(point.p.x() / rho, point.p.y() / rho, 0);
+    frame.t = makeTangent(direction_S, frame.N), frame.B = frame.t.cross(frame.N);
+    const Vec2 dN_t = frame.t.head<2>() / rho, dN_B = frame.B.head<2>() / rho;
+    frame.kappaN = -frame.t.head<2>().dot(dN_t), frame.tauG = frame.B.head<2>().dot(dN_t);
+    frame.kappaB = -frame.B.head<2>().dot(dN_B);
+    return frame;
+}
+
 void Cylinder::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Geodesic& geodesic) const {
-    geodesic.P = calcFrame(start.point, start.tangent);
+    geodesic.P = Cylinder::calcFrame(start.point, start.tangent);
     const DarbouxFrame& P = geodesic.P;
     const double hoop = P.t.y() * P.N.x() - P.t.x() * P.N.y();  // of t along the parallel
     const double angle = hoop * start.length / m_radius, c = std::cos(angle), s = std::sin(angle);

@@ -33,12 +33,12 @@ public:
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
 
     /** f = r/2 (rho^2/r^2 + (w/c)^4 - 1), convex. */
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    DiagonalImplicitValue calcImplicit(const Vec3& p) const {
         const double w = std::max(std::abs(p.z()) - 0.5 * m_length, 0.0) / m_capHeight;
         const double k = m_radius / m_capHeight, side = p.z() < 0 ? -1 : 1;
         return {0.5 * ((p.x() * p.x() + p.y() * p.y()) / m_radius + m_radius * (w * w * w * w - 1)),
                 {p.x() / m_radius, p.y() / m_radius, 2 * side * k * w * w * w},
-                Vec3(1 / m_radius, 1 / m_radius, 6 * k / m_capHeight * w * w).asDiagonal()};
+                Vec3(1 / m_radius, 1 / m_radius, 6 * k / m_capHeight * w * w)};
     }
 
 private:

@@ -14,9 +14,9 @@ public:
     double getSize() const override { return m_size; }
     bool isConvex() const override { return true; }
 
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    DiagonalImplicitValue calcImplicit(const Vec3& p) const {
         const Vec3 gradient = m_hessian.cwiseProduct(p);
-        return {0.5 * (gradient.dot(p) - m_size), gradient, m_hessian.asDiagonal()};
+        return {0.5 * (gradient.dot(p) - m_size), gradient, m_hessian};
     }
 
     /** The nearest point, also from afar, where the way of steepest descent leads elsewhere if the surface is thin:

@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "tautline/types.h"
 
 namespace tautline {
@@ -23,14 +25,17 @@ struct DarbouxFrame {
     double calcGaussianCurvature() const { return kappaN * kappaB - tauG * tauG; }
 
     /** The same frame seen from the frame in which its own basis has pose X. */
-    DarbouxFrame reexpressedBy(const Pose& X) const { return {X * x, X.R * t, X.R * N, X.R * B, kappaN, tauG, kappaB}; }
+    DarbouxFrame reexpressedBy(const Pose& X) const {
+        return {X * x, X.rotate(t), X.rotate(N), X.rotate(B), kappaN, tauG, kappaB};
+    }
 };
 
 /** The unit tangent nearest a direction; any tangent for a direction along the normal. */
 inline Vec3 makeTangent(const Vec3& direction, const Vec3& N) {
     const Vec3 tangent = direction - direction.dot(N) * N;
-    const double length = tangent.norm();
-    return length <= 1e-12 * direction.norm() ? N.unitOrthogonal() : Vec3(tangent / length);  // NaN stays NaN
+    const double square = tangent.squaredNorm();
+    if (square <= 1e-24 * direction.squaredNorm()) return N.unitOrthogonal();
+    return tangent / std::sqrt(square);  // NaN stays NaN
 }
 
 }  // namespace tautline

@@ -1,5 +1,7 @@
 #pragma once
 /** Everything a Surface must answer, deduced from f(p) = 0 with gradient and Hessian (thesis Cha. 7). */
+#include <utility>
+
 #include "tautline/geodesic_integrator.h"
 #include "tautline/surface.h"
 
@@ -12,7 +14,20 @@ struct ImplicitValue {
     Mat3 hessian;
 };
 
+/** The same where the Hessian is diagonal everywhere, as that of a quadric about its own axes. */
+struct DiagonalImplicitValue {
+    double f;
+    Vec3 gradient;
+    Vec3 hessian;  ///< its diagonal
+
+    operator ImplicitValue() const { return {f, gradient, hessian.asDiagonal()}; }
+};
+
 namespace detail {
+
+inline double dot(const Vec3& a, const Vec3& b) {
+    return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
+}
 
 /** H v for symmetric H, written out: Eigen's product is a call at -O2, and this is half the cost of a geodesic. */
 inline Vec3 multiply(const Mat3& H, const Vec3& v) {
@@ -20,8 +35,27 @@ inline Vec3 multiply(const Mat3& H, const Vec3& v) {
             H(0, 2) * v.x() + H(1, 2) * v.y() + H(2, 2) * v.z()};
 }
 
+inline Vec3 multiply(const Vec3& diagonal, const Vec3& v) {
+    return {diagonal.x() * v.x(), diagonal.y() * v.y(), diagonal.z() * v.z()};
+}
+
+/** g . adj(H) g: with the gradient for g, the Gaussian curvature times |g|^4 (the determinant of the second fundamental
+form, of which adj(H) holds the minors, whatever tangent basis it is written in). */
+inline double calcAdjugateForm(const Mat3& H, const Vec3& g) {
+    const double xx = H(1, 1) * H(2, 2) - H(1, 2) * H(1, 2), yy = H(0, 0) * H(2, 2) - H(0, 2) * H(0, 2),
+                 zz = H(0, 0) * H(1, 1) - H(0, 1) * H(0, 1), xy = H(0, 2) * H(1, 2) - H(0, 1) * H(2, 2),
+                 xz = H(0, 1) * H(1, 2) - H(0, 2) * H(1, 1), yz = H(0, 1) * H(0, 2) - H(0, 0) * H(1, 2);
+    return xx * g.x() * g.x() + yy * g.y() * g.y() + zz * g.z() * g.z() +
+           2 * (xy * g.x() * g.y() + xz * g.x() * g.z() + yz * g.y() * g.z());
+}
+inline double calcAdjugateForm(const Vec3& diagonal, const Vec3& g) {
+    const double x = diagonal.x(), y = diagonal.y(), z = diagonal.z();
+    return y * z * g.x() * g.x() + x * z * g.y() * g.y() + x * y * g.z() * g.z();
+}
+
 /** Trihedron and curvatures from gradient and Hessian (thesis Sec. 7.1 to 7.3, signs of Eqn. 3.63). */
-inline DarbouxFrame calcImplicitFrame(const ImplicitValue& value, const Vec3& p, const Vec3& direction) {
+template <class Value>
+DarbouxFrame calcImplicitFrame(const Value& value, const Vec3& p, const Vec3& direction) {
     DarbouxFrame frame;
     const double g = value.gradient.norm();
     frame.x = p;
@@ -41,10 +75,11 @@ template <class ImplicitFunction>
 struct ImplicitGeodesicEquations {
     static constexpr int n = 10;
     using State = Eigen::Matrix<double, n, 1>;
+    using Value = decltype(std::declval<const ImplicitFunction&>().calcImplicit(Vec3()));
 
     const ImplicitFunction& surface;
     double size;
-    ImplicitValue value;  ///< at the last projected state
+    Value value;  ///< at the last projected state
     double maxKappaN = kNaN;
 
     void calcDerivative(const State& y, State& slope) const {
@@ -53,48 +88,47 @@ struct ImplicitGeodesicEquations {
     /** At the last projected state, without evaluating the surface again. */
     void calcProjectedDerivative(const State& y, State& slope) const { calcDerivative(value, y, slope); }
 
-    void calcDerivative(const ImplicitValue& at, const State& y, State& slope) const {
+    void calcDerivative(const Value& at, const State& y, State& slope) const {
         const Vec3 t(y[3], y[4], y[5]), &g = at.gradient;
-        const Vec3 B_g(t.y() * g.z() - t.z() * g.y(), t.z() * g.x() - t.x() * g.z(), t.x() * g.y() - t.y() * g.x());
-        const Vec3 Ht = multiply(at.hessian, t), HB = multiply(at.hessian, B_g);  // B_g = |g| B
-        const double inverse = 1 / dot(g, g), tHt = dot(t, Ht), BHt = dot(B_g, Ht);
-        // K = kappaN kappaB - tauG^2 with B = B_g/|g|: one power of |g|^2 for each factor.
-        const double K = (tHt * dot(B_g, HB) - BHt * BHt) * inverse * inverse, bend = -tHt * inverse;
-        slope[0] = t.x(), slope[1] = t.y(), slope[2] = t.z();
-        slope[3] = bend * g.x(), slope[4] = bend * g.y(), slope[5] = bend * g.z();  // t' = kappaN N
-        slope[6] = y[7];
-        slope[7] = -K * y[6];
-        slope[8] = y[9];
-        slope[9] = -K * y[8];
+        const double inverse = 1 / dot(g, g), bend = -dot(t, multiply(at.hessian, t)) * inverse;
+        const double K = calcAdjugateForm(at.hessian, g) * inverse * inverse;
+        // Written in pairs: the sums over slopes read them so, and would wait for two separate writes to arrive.
+        slope.template segment<2>(0) = Vec2(t.x(), t.y());
+        slope.template segment<2>(2) = Vec2(t.z(), bend * g.x());  // t' = kappaN N
+        slope.template segment<2>(4) = Vec2(bend * g.y(), bend * g.z());
+        slope.template segment<2>(6) = Vec2(y[7], -K * y[6]);
+        slope.template segment<2>(8) = Vec2(y[9], -K * y[8]);
     }
     void calcErrorWeights(const State& /*y*/, State& weights) const {
         weights.template head<6>() << Vec3::Constant(1 / size), Vec3::Ones();
     }
     void project(State& y) {
-        const Vec3 p = y.template segment<3>(0);
+        const Vec3 p = y.template segment<3>(0), t = y.template segment<3>(3);
         value = surface.calcImplicit(p);
         const Vec3 onSurface = p - value.f / dot(value.gradient, value.gradient) * value.gradient;
         value = surface.calcImplicit(onSurface);
+        const Vec3& g = value.gradient;
+        const double g2 = dot(g, g);
+        Vec3 tangent = t - dot(t, g) / g2 * g;
+        const double length = std::sqrt(dot(tangent, tangent));
+        // Left over of a unit vector: anything but small.
+        tangent = length > 0.1 ? Vec3(tangent / length) : makeTangent(t, g / std::sqrt(g2));
         y.template segment<3>(0) = onSurface;
-        const double g = std::sqrt(dot(value.gradient, value.gradient));
-        const Vec3 t = makeTangent(y.template segment<3>(3), value.gradient / g);
-        y.template segment<3>(3) = t;
-        maxKappaN = std::max(maxKappaN, -dot(t, multiply(value.hessian, t)) / g);
+        y.template segment<3>(3) = tangent;
+        maxKappaN = std::max(maxKappaN, -dot(tangent, multiply(value.hessian, tangent)) / std::sqrt(g2));
     }
-
-private:
-    static double dot(const Vec3& a, const Vec3& b) { return a.x() * b.x() + a.y() * b.y() + a.z() * b.z(); }
 };
 
 }  // namespace detail
 
 /** Base of an implicit surface whose function is known at compile time: `Derived` gives
-`ImplicitValue calcImplicit(const Vec3& p_S) const`, f > 0 outside, and the integrator calls it inline. */
+`ImplicitValue calcImplicit(const Vec3& p_S) const`, or that of a DiagonalImplicitValue, f > 0 outside, and the
+integrator calls it inline. */
 template <class Derived>
 class ImplicitShape : public Surface {
 public:
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override {
-        const ImplicitValue value = derived().calcImplicit(p_S);
+        const auto value = derived().calcImplicit(p_S);
         const double g = value.gradient.norm();
         if (!(g > 0)) {  // the centre of a quadric: as deep as can be, any direction out
             N_S = Vec3::UnitX();
@@ -121,7 +155,7 @@ public:
     /** Shooting by the adaptive integrator, also where a closed form stands in its place. */
     void shootByIntegration(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const {
         using Equations = detail::ImplicitGeodesicEquations<Derived>;
-        const ImplicitValue value = derived().calcImplicit(start.point.p);
+        const typename Equations::Value value = derived().calcImplicit(start.point.p);
         geodesic.P = detail::calcImplicitFrame(value, start.point.p, start.tangent);
         Equations equations{derived(), getSize(), value};
         typename Equations::State y;

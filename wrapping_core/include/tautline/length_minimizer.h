@@ -38,7 +38,7 @@ private:
 
     PathSolverOptions m_options;
     PathStepper m_stepper;
-    BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
+    PathJacobian m_jacobian;
     BlockLdlt m_kkt;
     std::vector<double> m_solution;  ///< d and lambda of each contact in turn, both scaled
     std::vector<LengthHessianBlocks> m_hessian;

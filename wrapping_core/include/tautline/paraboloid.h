@@ -19,10 +19,10 @@ public:
     double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
 
     /** f = x^2/A + y^2/B - z: the gradient is nowhere less than 1. */
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    DiagonalImplicitValue calcImplicit(const Vec3& p) const {
         return {p.x() * p.x() / m_A + p.y() * p.y() / m_B - p.z(),
                 {2 * p.x() / m_A, 2 * p.y() / m_B, -1},
-                Vec3(2 / m_A, 2 / m_B, 0).asDiagonal()};
+                Vec3(2 / m_A, 2 / m_B, 0)};
     }
 
 private:

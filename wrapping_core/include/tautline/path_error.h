@@ -4,17 +4,17 @@
 A chain is the path's fixed points and touched obstacles ("contacts") in order, with a straight segment
 between each and the next. Unknowns of contact i, in order: xi = (ds_P, dbeta_P, dtheta, dl), rows of its
 error: (e^i.N_P, e^i.B_P, e^(i+1).N_Q, e^(i+1).B_Q). All vectors in ground. The Jacobian is block-tridiagonal
-with 4 x 4 blocks; as a scalar band kl = ku = 5, since neighbours couple through one point each. */
+with 4 x 4 blocks of which neighbours couple through one point each. */
 #include <vector>
 
-#include "tautline/banded_solver.h"
+#include "tautline/path_jacobian.h"
 #include "tautline/path_problem.h"
 #include "tautline/path_solution.h"
 
 namespace tautline {
 
 inline constexpr int kVariations = 4;     ///< natural variations of a geodesic (thesis Eqn. 4.8)
-inline constexpr int kPathBandwidth = 5;  ///< kl = ku of the path-error Jacobian
+inline constexpr int kPathBandwidth = 5;  ///< of the path-error Jacobian, to either side of the diagonal
 
 /** A touched obstacle of a chain. */
 struct ChainContact {
@@ -35,7 +35,8 @@ struct Chain {
     std::vector<ChainContact> contacts;
     std::vector<ChainSegment> segments;
 
-    /** Sets stops and segments from the touched, active elements; starts come from `contacts`. */
+    /** Sets stops and segments from the touched, active elements; starts come from `contacts`. Geodesics, frames and
+    lines are left for shootChain(). */
     void build(const PathProblem& problem, const PathPose& pose, const std::vector<ObstacleContact>& elementContacts);
 };
 
@@ -46,8 +47,8 @@ bool shootChain(const PathProblem& problem, const PathPose& pose, const Geodesic
 /** eps of all contacts, 4 per contact. @param eps   resized. @return max |eps|, 0 without contacts */
 double calcPathError(const Chain& chain, std::vector<double>& eps);
 
-/** d eps / d xi in band storage (thesis Eqn. 4.47 to 4.56). */
-void calcPathErrorJacobian(const Chain& chain, BandedSolver& jacobian);
+/** d eps / d xi (thesis Eqn. 4.47 to 4.56). @param jacobian   resized */
+void calcPathErrorJacobian(const Chain& chain, PathJacobian& jacobian);
 
 /** Length of segments and arcs [m]. */
 double calcLength(const Chain& chain);

@@ -20,7 +20,7 @@ private:
 
     PathSolverOptions m_options;
     PathStepper m_stepper;
-    BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
+    PathJacobian m_jacobian;
     std::vector<double> m_step;
 };
 

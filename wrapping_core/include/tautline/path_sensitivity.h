@@ -47,7 +47,7 @@ private:
     const PathProblem* m_problem = nullptr;
     const PathPose* m_pose = nullptr;
     Chain m_chain;
-    BandedSolver m_jacobian{kPathBandwidth, kPathBandwidth};
+    PathJacobian m_jacobian;
     std::vector<double> m_rates;
     std::vector<Vec3> m_ARate, m_BRate;  ///< of the segments' ends
     PathVariation m_prediction;

@@ -15,7 +15,7 @@ public:
     std::string getDescription() const override;
     bool isConvex() const override { return true; }
 
-    ImplicitValue calcImplicit(const Vec3& p) const { return {p.z(), Vec3::UnitZ(), Mat3::Zero()}; }
+    DiagonalImplicitValue calcImplicit(const Vec3& p) const { return {p.z(), Vec3::UnitZ(), Vec3::Zero()}; }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override {
         N_S = Vec3::UnitZ();
         return p_S.z();

@@ -16,11 +16,12 @@ public:
     double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
 
     /** f = (|p|^2 - r^2)/(2r), so that the gradient is unit on the surface. */
-    ImplicitValue calcImplicit(const Vec3& p) const {
-        return {(p.squaredNorm() - m_radius * m_radius) / (2 * m_radius), p / m_radius, Mat3::Identity() / m_radius};
+    DiagonalImplicitValue calcImplicit(const Vec3& p) const {
+        return {(p.squaredNorm() - m_radius * m_radius) / (2 * m_radius), p / m_radius, Vec3::Constant(1 / m_radius)};
     }
     double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
+    DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override;
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
     void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const override;
 
