@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace tautline {
+namespace {
+
+constexpr double kMostHalf = 2;  ///< half of a new arc where the surface hardly curves, in sizes
+
+}  // namespace
 
 double calcContactWitness(const PathProblem& problem, const PathSolution& path, int element) {
     // The smallest sign that there is: an event finder that starts from exactly zero misses what follows.
@@ -32,7 +37,8 @@ void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& 
     const DarbouxFrame frame = surface.calcFrame(clearance.C, e_S);
     // The chord that the line cuts from the osculating circle stands for the arc.
     const double curvature = std::max(std::abs(frame.kappaN), 1e-3 * clearance.scale);
-    const double half = std::min(std::sqrt(2 * std::max(0.0, -clearance.distance) / curvature), 1 / curvature);
+    const double half = std::min(
+        {std::sqrt(2 * std::max(0.0, -clearance.distance) / curvature), 1 / curvature, kMostHalf * surface.getSize()});
     contact.isTouched = true;
     contact.start.point = surface.calcDisplacedPoint(clearance.C, -half * frame.t);
     contact.start.tangent = surface.calcFrame(contact.start.point, frame.t).t;

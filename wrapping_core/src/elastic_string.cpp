@@ -285,6 +285,14 @@ StringFault ElasticString::findFault(const PathProblem& problem) const {
     return {};
 }
 
+void ElasticString::push(int element, const Vec3& by_G) {
+    for (const Hold& hold : m_holds) {
+        if (hold.element != element || !hold.touches()) continue;
+        for (int k = hold.first; k <= hold.last; ++k)
+            if (!m_isFixed[k]) m_nodes[k] += by_G;
+    }
+}
+
 void ElasticString::extractContacts(const PathProblem& problem, const PathPose& pose,
                                     std::vector<ObstacleContact>& contacts) const {
     contacts.resize(problem.getNumElements());

@@ -9,6 +9,7 @@ namespace {
 constexpr double kLeastDelta = 1e-4, kMostDelta = 1e6;  ///< of the convexification, in sizes of the surfaces
 constexpr double kEnoughDelta = 10;                     ///< beyond which a step is long for its conditions' sake
 constexpr double kRaise = 8, kLower = 1.0 / 3;          ///< from trial to trial, and from step to step
+constexpr double kLeastKept = 0.1;                      ///< of the length of an arc in one step
 constexpr int kMaxHalvings = 8;
 constexpr double kLeastPenalty = 0.3;   ///< per size and unit of e.N
 constexpr double kLeastFraction = 0.2;  ///< of a step within the limits; more convex ones go before shorter ones
@@ -41,7 +42,7 @@ bool LengthMinimizer::takeStep(PathSolution& path) {
     double delta = 0;
     while (delta <= kMostDelta) {
         assemble(delta);
-        if (m_kkt.factor() && hasInertiaOfMinimum() && calcStep() &&
+        if (m_kkt.factor() && hasInertiaOfMinimum() && solve(true, m_stepper.getError(), m_step) &&
             (delta > kEnoughDelta || m_stepper.calcStepFraction(m_step) > kLeastFraction) && searchLine(path)) {
             m_delta = delta * kLower;
             return true;
@@ -98,26 +99,34 @@ bool LengthMinimizer::hasInertiaOfMinimum() const {
     return m_kkt.getNumNegative() == numNegative;
 }
 
-/** m_step = d, from right-hand sides -g and -c in the units of the matrix. */
-bool LengthMinimizer::calcStep() {
-    const std::vector<double>& eps = m_stepper.getError();
+/** Solves for right-hand sides -g, or none, and -c in the units of the matrix. @param eps   of which c are rows */
+bool LengthMinimizer::solve(bool isDownhill, const std::vector<double>& eps, std::vector<double>& step) {
     const std::size_t n = m_hessian.size();
     for (std::size_t i = 0; i < n; ++i) {
         double* right = &m_solution[BlockLdlt::k * i];
         Eigen::Map<Vec4> g(right);
-        g = -calcScales(i).cwiseProduct(Eigen::Map<const Vec4>(&m_gradient[kVariations * i]));
+        g.setZero();
+        if (isDownhill) g = -calcScales(i).cwiseProduct(Eigen::Map<const Vec4>(&m_gradient[kVariations * i]));
         for (int k = 0; k < 2; ++k)
             right[kVariations + k] = -m_stepper.getSize(i) * eps[kVariations * i + kTangency[k]];
     }
     m_kkt.solveInPlace(m_solution);
-    m_step.resize(m_gradient.size());
+    step.resize(m_gradient.size());
     for (std::size_t i = 0; i < n; ++i) {
         const Eigen::Map<const Vec4> solution(&m_solution[BlockLdlt::k * i]);
-        Eigen::Map<Vec4> d(&m_step[kVariations * i]);
+        Eigen::Map<Vec4> d(&step[kVariations * i]);
         d = calcScales(i).cwiseProduct(solution);
         if (!d.allFinite()) return false;
     }
     return true;
+}
+
+/** Tries a fraction of the step again with the second-order correction A d = -c(trial): where a surface curves away
+sideways, the step alone breaks the conditions by its square. @return false if that cannot be tried */
+bool LengthMinimizer::tryCorrected(double fraction, PathSolution& path) {
+    if (!solve(false, m_stepper.getTrialError(), m_corrected)) return false;
+    for (std::size_t i = 0; i < m_corrected.size(); ++i) m_corrected[i] += fraction * m_step[i];
+    return m_stepper.calcStepFraction(m_corrected) == 1 && m_stepper.tryStep(m_corrected, 1, path);
 }
 
 /** |c|_1, each condition times the size of its surface [m]. */
@@ -142,6 +151,17 @@ double LengthMinimizer::predictChange(double& slope) const {
     return slope + 0.5 * std::max(curvature, 0.0);
 }
 
+/** Arcs keep a part of their length: the system is singular at length zero, and no arc is led through it. */
+double LengthMinimizer::calcPositiveFraction(double fraction) const {
+    const Chain& chain = m_stepper.getChain();
+    for (std::size_t i = 0; i < chain.contacts.size(); ++i) {
+        const double length = chain.contacts[i].start.length, change = m_step[kVariations * i + 3];
+        if (length > 0 && length + fraction * change < kLeastKept * length)
+            fraction = (kLeastKept - 1) * length / change;
+    }
+    return fraction;
+}
+
 /** Halves the step until the penalty function falls, or the path error by half: near the end the fall drowns in the
 rounding of L. @return false if it does not */
 bool LengthMinimizer::searchLine(PathSolution& path) {
@@ -158,9 +178,11 @@ bool LengthMinimizer::searchLine(PathSolution& path) {
         return (descent < 0 && fall < kSufficient * fraction * descent) ||
                calcNorm(m_stepper.getTrialError()) < 0.5 * calcNorm(m_stepper.getError());
     };
-    double fraction = m_stepper.calcStepFraction(m_step);
+    double fraction = calcPositiveFraction(m_stepper.calcStepFraction(m_step));
     for (int halving = 0; halving <= kMaxHalvings; ++halving, fraction /= 2)
-        if (m_stepper.tryStep(m_step, fraction, path) && isGood(fraction)) return true;
+        if (m_stepper.tryStep(m_step, fraction, path) &&
+            (isGood(fraction) || (tryCorrected(fraction, path) && isGood(fraction))))
+            return true;
     return false;
 }
 

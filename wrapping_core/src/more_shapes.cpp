@@ -151,6 +151,13 @@ Capsule::Capsule(double radius, double length, double capHeight)
 SurfacePoint Capsule::findSurfacePoint(const Vec3& p_S) const {
     const Vec3 onAxis(0, 0, std::clamp(p_S.z(), -0.5 * m_length, 0.5 * m_length)), q = p_S - onAxis;
     const double b = q.head<2>().squaredNorm() / (m_radius * m_radius), w = q.z() / m_capHeight, a = w * w * w * w;
+    if (a < 1 && b < 0.25 * (1 - a)) {
+        // About the axis the steepest descent leads out through the tip, however far that is: begin half way to the
+        // side.
+        const double rho = p_S.head<2>().norm(), half = 0.5 * m_radius * std::sqrt(1 - a);
+        const Vec2 outward = rho > 0 ? Vec2(p_S.head<2>() / rho) : Vec2(Vec2::UnitX());
+        return ImplicitShape::findSurfacePoint(Vec3(half * outward.x(), half * outward.y(), p_S.z()));
+    }
     if (!(b + a > 4)) return ImplicitShape::findSurfacePoint(p_S);
     // onAxis + k q with a k^4 + b k^2 = 1, then the foot of a point that lies on the surface but for rounding
     const double k = std::sqrt(2 / (b + std::sqrt(b * b + 4 * a)));

@@ -14,6 +14,8 @@ namespace {
 constexpr double kEndHeight = 1e-7;  ///< of ends that lie on a surface, in its sizes
 constexpr double kSaddlePush = 0.1;  ///< of an arc on a saddle, sideways, in sizes
 constexpr int kMaxRepairs = 4;       ///< of cusps and saddles, in the search from one start
+constexpr double kStringPush = 0.1;  ///< the first one of a string that goes beyond a conjugate point, in sizes
+constexpr int kMaxStringPushes = 6;  ///< each twice the one before
 constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the other side
 
 /** Calls visit(point, obstacle) with either end of its strand for every obstacle that takes part. */
@@ -87,6 +89,7 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
         if (!isFound) {
             StartGuides guides = calcHintGuides(problem, pose);
             isFound = findColdPath(problem, pose, guides, PassageRule::AsHinted, path) ||
+                      findColdPathWithoutPoints(problem, pose, guides, path) ||
                       findOtherSides(problem, pose, guides, path);
         }
     }
@@ -147,7 +150,7 @@ bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, Pass
         if (repair == kMaxRepairs) return false;
         if (verification.condition == PathVerification::Condition::ReversedTangent)
             turnCuspsRound(problem, pose, nullptr, path);
-        else if (verification.isStationaryOnly())
+        else if (verification.condition == PathVerification::Condition::Unstable)
             leaveSaddle(problem, pose, path);
         else
             return false;
@@ -161,7 +164,7 @@ void PathSolver::leaveSaddle(const PathProblem& problem, const PathPose& pose, P
     restoreStarts(path);
     if (!m_minimizer.minimize(problem, pose, path)) return;
     const PathVerification verification = verifyPath(problem, pose, path);
-    if (!verification.isStationaryOnly()) return;
+    if (verification.condition != PathVerification::Condition::Unstable) return;
     const Surface& surface = *problem.getElement(verification.element).surface;
     ObstacleContact& contact = path.contacts[verification.element];
     contact.start =
@@ -205,16 +208,58 @@ bool PathSolver::findColdPath(const PathProblem& problem, const PathPose& pose, 
         int maxSweeps;
     };
     constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 3000}};
+    constexpr Level kPushed = {0.5, 1e-6, 4000};  // it slides off slowly
     path.wasCold = true;
     path.fault = {};
     m_string.lay(problem, pose, guides);
     for (const Level& level : kLevels) {
-        m_string.relax(problem, pose, level.fineness, level.tolerance, level.maxSweeps);
-        for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
-        m_string.extractContacts(problem, pose, path.contacts);
-        if (findPath(problem, pose, rule, path)) return true;
+        if (tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, rule, path)) return true;
+        double push = kStringPush;
+        for (int i = 0; i < kMaxStringPushes && pushOffConjugatePoint(problem, pose, push, path); ++i, push *= 2)
+            if (tightenString(problem, pose, kPushed.fineness, kPushed.tolerance, kPushed.maxSweeps, rule, path))
+                return true;
     }
     path.fault = m_string.findFault(problem);
+    return false;
+}
+
+/** @return true if the path that the relaxed string suggests leads on to a verified minimum */
+bool PathSolver::tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
+                               int maxSweeps, PassageRule rule, PathSolution& path) {
+    m_string.relax(problem, pose, fineness, tolerance, maxSweeps);
+    for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
+    m_string.extractContacts(problem, pose, path.contacts);
+    return findPath(problem, pose, rule, path);
+}
+
+/** An arc beyond its conjugate point is shortest among geodesics nearby, but not among curves: only the string, which
+can bend inside the arc, leads on from there. Laid symmetrically it stays, so that it is pushed sideways.
+@return false if the path is no such one */
+bool PathSolver::pushOffConjugatePoint(const PathProblem& problem, const PathPose& pose, double push,
+                                       const PathSolution& path) {
+    if (!(path.pathError <= m_options.pathErrorTolerance)) return false;
+    const PathVerification verification = verifyPath(problem, pose, path);
+    if (verification.condition != PathVerification::Condition::ConjugatePoint) return false;
+    const int e = verification.element;
+    m_string.push(e,
+                  push * problem.getElement(e).surface->getSize() * (pose.X_GE[e].R * path.contacts[e].geodesic.P.B));
+    return true;
+}
+
+/** Where points near the path lead to no minimum (they may be far from any), the sides that the straight lines between
+the others suggest may. @return false with `path` as it was */
+bool PathSolver::findColdPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartGuides guides,
+                                           PathSolution& path) {
+    bool hasPoints = false;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!std::holds_alternative<PassNear>(problem.getElement(e).hint)) continue;
+        hasPoints = hasPoints || !guides[e].empty();
+        guides[e].clear();
+    }
+    if (!hasPoints) return false;
+    m_previous = path;
+    if (findColdPath(problem, pose, guides, PassageRule::AsHinted, path)) return true;
+    goBack(m_previous, path);
     return false;
 }
 

@@ -19,6 +19,9 @@ public:
     this laying has cost what it may. @param fineness   spacing of nodes relative to the default */
     void relax(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance, int maxSweeps);
 
+    /** Moves the nodes that touch an element, to free a string from a saddle. @param by_G   in ground [m] */
+    void push(int element, const Vec3& by_G);
+
     /** Contact set, geodesic starts (touched) and switched-off obstacles as the string shows them. */
     void extractContacts(const PathProblem& problem, const PathPose& pose,
                          std::vector<ObstacleContact>& contacts) const;

@@ -29,7 +29,9 @@ public:
 private:
     bool takeStep(PathSolution& path);
     void assemble(double delta);
-    bool calcStep();
+    bool solve(bool isDownhill, const std::vector<double>& eps, std::vector<double>& step);
+    double calcPositiveFraction(double fraction) const;
+    bool tryCorrected(double fraction, PathSolution& path);
     double predictChange(double& slope) const;
     bool hasInertiaOfMinimum() const;
     double calcViolation(const Chain& chain, const std::vector<double>& eps) const;
@@ -42,7 +44,7 @@ private:
     BlockLdlt m_kkt;
     std::vector<double> m_solution;  ///< d and lambda of each contact in turn, both scaled
     std::vector<LengthHessianBlocks> m_hessian;
-    std::vector<double> m_gradient, m_step;
+    std::vector<double> m_gradient, m_step, m_corrected;
     double m_delta = 0, m_penalty = 0;
 };
 

@@ -35,9 +35,14 @@ private:
     void turnCuspsRound(const PathProblem& problem, const PathPose& pose, const std::vector<double>* startLengths,
                         PathSolution& path) const;
     void leaveSaddle(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
+                       int maxSweeps, PassageRule rule, PathSolution& path);
+    bool pushOffConjugatePoint(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
     bool findPath(const PathProblem& problem, const PathPose& pose, PassageRule rule, PathSolution& path);
     bool findColdPath(const PathProblem& problem, const PathPose& pose, const StartGuides& guides, PassageRule rule,
                       PathSolution& path);
+    bool findColdPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartGuides guides,
+                                   PathSolution& path);
     bool findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides, PathSolution& path);
     bool hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule,
                           const PathSolution& path) const;

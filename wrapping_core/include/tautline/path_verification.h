@@ -21,8 +21,6 @@ struct PathVerification {
     Vec3 place_G = Vec3::Constant(kNaN);  ///< where on the path, in ground [m]
 
     bool isMinimum() const { return condition == Condition::None; }
-    /** True if all that is wrong is that the path could be shortened by pushing it sideways. */
-    bool isStationaryOnly() const { return condition == Condition::Unstable || condition == Condition::ConjugatePoint; }
 };
 
 /** Arcs shorter than this, in sizes of their surfaces, are of negative length. */
