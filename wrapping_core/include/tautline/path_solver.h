@@ -1,7 +1,7 @@
 #pragma once
+#include "tautline/contact_search.h"
 #include "tautline/elastic_string.h"
-#include "tautline/length_minimizer.h"
-#include "tautline/path_newton.h"
+#include "tautline/path_passages.h"
 #include "tautline/path_problem.h"
 #include "tautline/path_solution.h"
 
@@ -28,13 +28,7 @@ public:
     void solveKeepingContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 private:
-    /** What says how often the path goes through the holes of its obstacles. */
-    enum class PassageRule { AsBefore, AsHinted };
-
     const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
-    void turnCuspsRound(const PathProblem& problem, const PathPose& pose, const std::vector<double>* startLengths,
-                        PathSolution& path) const;
-    void leaveSaddle(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
                        int maxSweeps, PassageRule rule, PathSolution& path);
     bool pushOffConjugatePoint(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
@@ -44,26 +38,14 @@ private:
     bool findColdPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartGuides guides,
                                    PathSolution& path);
     bool findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides, PathSolution& path);
-    bool hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule,
-                          const PathSolution& path) const;
-    void updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) const;
-    bool findStationaryPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    bool findPathOfContacts(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    void restoreStarts(PathSolution& path) const;
-    bool iterateContactSet(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    int findWorstContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) const;
-    void watchNearestPlaces(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     void switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
-    void updateClearances(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     void finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
 
     PathSolverOptions m_options;
     ElasticString m_string;
-    PathNewton m_newton;
-    LengthMinimizer m_minimizer;
-    std::vector<GeodesicStart> m_starts;  ///< of a contact set, by element
-    std::vector<double> m_startLengths;   ///< of the arcs by element, while contacts are kept
-    PathSolution m_previous, m_cusp;
+    ContactSearch m_search;
+    std::vector<double> m_startLengths;  ///< of the arcs by element, while contacts are kept
+    PathSolution m_previous;
     PathPose m_liftedPose;
 };
 
