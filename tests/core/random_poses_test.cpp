@@ -99,7 +99,7 @@ TEST(RandomPoses, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
                                Scene{1056053, kBasic, true}, Scene{1069570, kBasic, true}, Scene{1846297, kBasic, true},
                                Scene{1076056, kBasic, false}, Scene{1820249, kBasic, false}, Scene{1016328, kAll, true},
                                Scene{1016512, kAll, true}, Scene{1069064, kAll, true}, Scene{1070768, kAll, true},
-                               Scene{1085768, kAll, false}}) {
+                               Scene{1085768, kAll, false}, Scene{1584688, kAll, false}}) {
         SCOPED_TRACE(scene.seed);
         PathProblem problem;
         PathPose pose;

@@ -282,6 +282,7 @@ StringFault ElasticString::findFault(const PathProblem& problem) const {
         if (leavesAndReturns(problem, hold)) return {StringFault::Kind::TwoContacts, hold.element, -1};
     for (const Hold& hold : m_holds)
         if (!m_isAtRest && hold.touches()) return {StringFault::Kind::Sliding, hold.element, -1};
+    if (!m_isAtRest) return {StringFault::Kind::Sliding, -1, -1};
     return {};
 }
 

@@ -96,6 +96,8 @@ std::string describe(const StringFault& fault, const PathProblem& problem) {
     if (fault.kind == StringFault::Kind::Groove)
         return "the string lies in the groove between " + quoteName(problem, fault.element) + " and " +
                quoteName(problem, fault.other) + ", where no smooth path is";
+    if (fault.kind == StringFault::Kind::Sliding && fault.element < 0)
+        return "the string still slides, far from where it would come to rest";
     if (fault.kind == StringFault::Kind::Sliding)
         return "the string still slides over " + quoteName(problem, fault.element) + ", next to a neutral course";
     if (fault.kind == StringFault::Kind::OutOfOrder)

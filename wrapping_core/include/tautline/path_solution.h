@@ -48,7 +48,7 @@ struct StringFault {
         OutOfOrder,   ///< it meets two obstacles against the order of the path: it would have to cross itself
     };
     Kind kind = Kind::None;
-    int element = -1;  ///< the obstacle concerned
+    int element = -1;  ///< the obstacle concerned; -1 where a string slides clear of all
     int other = -1;    ///< the second one of a groove, or the one that is met too early
 };
 
