@@ -73,21 +73,26 @@ int findVanishingPressure(const PathProblem& problem, const PathSolution& path) 
     return -1;
 }
 
-/** Two obstacles of which the arc on one ends below the surface of the other: they overlap where the path passes. */
+/** Two obstacles of which the arc on one passes below the surface of the other: they overlap where the path passes. */
 StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
-    Vec3 N_S;
-    const auto isBelow = [&](const Vec3& p_G, int other) {
+    constexpr int kSamples = 9;  // of an arc
+    std::vector<Vec3> arc_S;
+    const auto isBelow = [&](int e, int other) {
         const Surface& surface = *problem.getElement(other).surface;
-        return surface.calcHeight(pose.X_GE[other].shiftBack(p_G), N_S) < -1e-6 * surface.getSize();
+        Vec3 N_S;
+        return std::any_of(arc_S.begin(), arc_S.end(), [&](const Vec3& p_S) {
+            const Vec3 p_G = pose.X_GE[e] * p_S;
+            return surface.calcHeight(pose.X_GE[other].shiftBack(p_G), N_S) < -1e-6 * surface.getSize();
+        });
     };
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (problem.getElement(e).isPoint() || !path.contacts[e].isTouched) continue;
-        const Geodesic& arc = path.contacts[e].geodesic;
-        for (int other = 0; other < problem.getNumElements(); ++other) {
-            if (other == e || problem.getElement(other).isPoint() || !path.contacts[other].isTouched) continue;
-            if (isBelow(pose.X_GE[e] * arc.P.x, other) || isBelow(pose.X_GE[e] * arc.Q.x, other))
+        sampleGeodesic(*problem.getElement(e).surface, path.contacts[e].start, GeodesicOptions{1e-6, 200}, kSamples,
+                       arc_S);
+        for (int other = 0; other < problem.getNumElements(); ++other)
+            if (other != e && !problem.getElement(other).isPoint() && path.contacts[other].isTouched &&
+                isBelow(e, other))
                 return {StringFault::Kind::Groove, e, other};
-        }
     }
     return {};
 }
@@ -128,8 +133,12 @@ std::string explainStatus(const PathProblem& problem, const PathPose& pose, cons
         if (isOwn) return text + ": " + describe({StringFault::Kind::TwoContacts, verification.element, -1}, problem);
     }
     const int vanishing = findVanishingPressure(problem, path);
-    const StringFault fault =
-        path.fault.kind != StringFault::Kind::None ? path.fault : findOverlap(problem, pose, path);
+    StringFault fault = path.fault;
+    const bool isVague = fault.kind == StringFault::Kind::Sliding && fault.element < 0;
+    if (fault.kind == StringFault::Kind::None || isVague) {
+        const StringFault overlap = findOverlap(problem, pose, path);
+        if (overlap.kind != StringFault::Kind::None) fault = overlap;
+    }
     if (fault.kind != StringFault::Kind::None)
         text += ": " + describe(fault, problem);
     else if (path.status == PathStatus::NotConverged && vanishing >= 0)
