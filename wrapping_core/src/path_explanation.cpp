@@ -73,6 +73,14 @@ int findVanishingPressure(const PathProblem& problem, const PathSolution& path) 
     return -1;
 }
 
+/** The segment that is so short that the rounding of its ends turns it by as much as the path error, or null. */
+const StraightSegment* findRoundedSegment(const PathSolution& path) {
+    constexpr double kRounding = 1e-15;  // of coordinates that have gone through two poses
+    for (const StraightSegment& line : path.segments)
+        if (line.length * path.pathError <= kRounding * (line.A.norm() + line.B.norm())) return &line;
+    return nullptr;
+}
+
 /** Two obstacles of which the arc on one passes below the surface of the other: they overlap where the path passes. */
 StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     constexpr int kSamples = 9;  // of an arc
@@ -120,6 +128,10 @@ std::string explainStatus(const PathProblem& problem, const PathPose& pose, cons
     if (path.status == PathStatus::NotConverged) {
         std::ostringstream error;
         error << "the path error stays at " << path.pathError;
+        if (const StraightSegment* line = findRoundedSegment(path)) {
+            error << ": a segment of " << line->length << " m is too short for the rounding of its ends";
+            return error.str();
+        }
         text = error.str();
     } else {
         const PathVerification verification = verifyPath(problem, pose, path);
