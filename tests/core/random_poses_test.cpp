@@ -101,7 +101,7 @@ TEST(RandomPoses, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
                                Scene{1076056, kBasic, false}, Scene{1820249, kBasic, false}, Scene{1016328, kAll, true},
                                Scene{1016512, kAll, true}, Scene{1069064, kAll, true}, Scene{1070768, kAll, true},
                                Scene{1085768, kAll, false}, Scene{1584688, kAll, false}, Scene{1667733, kBasic, false},
-                               Scene{1787872, kAll, false}}) {
+                               Scene{1787872, kAll, false}, Scene{1806640, kAll, true}, Scene{1821152, kAll, false}}) {
         SCOPED_TRACE(scene.seed);
         PathProblem problem;
         PathPose pose;

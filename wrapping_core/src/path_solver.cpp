@@ -140,17 +140,21 @@ bool PathSolver::findColdPath(const PathProblem& problem, const PathPose& pose, 
         int maxSweeps;
     };
     constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 3000}};
-    constexpr Level kPushed = {0.5, 1e-6, 4000};  // it slides off slowly
+    constexpr Level kPatient = {0.5, 1e-6, 6000};  // for strings that slide off slowly
     path.wasCold = true;
     path.fault = {};
     m_string.lay(problem, pose, guides);
+    const auto tighten = [&](const Level& level) {
+        return tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, rule, path);
+    };
     for (const Level& level : kLevels) {
-        if (tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, rule, path)) return true;
+        if (tighten(level)) return true;
         double push = kStringPush;
         for (int i = 0; i < kMaxStringPushes && pushOffConjugatePoint(problem, pose, push, path); ++i, push *= 2)
-            if (tightenString(problem, pose, kPushed.fineness, kPushed.tolerance, kPushed.maxSweeps, rule, path))
-                return true;
+            if (tighten(kPatient)) return true;
     }
+    // A string in which nothing is wrong may still slide, slower than was asked for.
+    if (m_string.findFault(problem).kind == StringFault::Kind::None && tighten(kPatient)) return true;
     path.fault = m_string.findFault(problem);
     return false;
 }
