@@ -15,9 +15,10 @@ by sequential quadratic programming. Each step (d, lambda) solves the block-trid
     [ A             0   ] [ lambda ] = [ -c ]      W the squared inverse scales of xi,
 
 with delta raised until the matrix has the inertia of a minimum, and is shortened until the exact penalty function
-L + nu |c|_1 falls. At a stationary path lambda = 0 (there the gradient of L vanishes without the conditions), so that
-their curvature may be left out of H; the last steps are those of Newton's method on the path error, and quadratic.
-Where Newton's method goes to any stationary path, or to none, this one goes downhill. Holds the workspace. */
+L + nu |c|_1 falls, with a second-order correction where the surfaces' curvature spoils it. At a stationary path lambda
+= 0 (there the gradient of L vanishes without the conditions), so that their curvature may be left out of H; the last
+steps are those of Newton's method on the path error, and quadratic. Where Newton's method goes to any stationary path,
+or to none, this one goes downhill. Holds the workspace. */
 class LengthMinimizer {
 public:
     explicit LengthMinimizer(const PathSolverOptions& options) : m_options(options), m_stepper(options) {}
