@@ -113,10 +113,11 @@ double calcLargestEventError(const Scene& scene, const SceneResult& result) {
 
 void printTallies(const std::map<std::string, Tally>& tallies) {
     std::cout << std::left << std::setw(24) << "tag" << std::right << std::setw(8) << "scenes" << std::setw(8)
-              << "solved" << std::setw(8) << "other" << std::setw(8) << "wrong" << std::setw(14) << "not converged\n";
+              << "solved" << std::setw(8) << "other" << std::setw(8) << "wrong" << std::setw(15) << "not converged"
+              << "\n";
     for (const auto& [name, tally] : tallies)
         std::cout << std::left << std::setw(24) << name << std::right << std::setw(8) << tally.total << std::setw(8)
-                  << tally.solved << std::setw(8) << tally.other << std::setw(8) << tally.wrong << std::setw(13)
+                  << tally.solved << std::setw(8) << tally.other << std::setw(8) << tally.wrong << std::setw(15)
                   << tally.unconverged << "\n";
 }
 
@@ -187,7 +188,10 @@ int main(int argc, char** argv) {
             std::cout << "== " << name << (noHints ? ", without hints" : "") << "\n";
             failures += report(readScenes(file), !noHints, out);
         }
-        if (!outFile.empty()) std::ofstream(outFile) << out.dump() << "\n";
+        if (!outFile.empty()) {
+            std::ofstream file(outFile);
+            if (!(file << out.dump() << "\n")) throw std::runtime_error("cannot write '" + outFile + "'");
+        }
         return failures == 0 ? 0 : 1;
     } catch (const std::exception& error) {
         std::cerr << "scenes: " << error.what() << "\n";

@@ -66,7 +66,7 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
                       findOtherSides(problem, pose, guides, path);
         }
     }
-    finish(problem, pose, path.pathError <= m_options.pathErrorTolerance, path);
+    finish(problem, pose, isFound, path);
 }
 
 void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose& givenPose, PathSolution& path) {
@@ -232,12 +232,15 @@ void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& 
     });
 }
 
-void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) {
+/** Says how the solve ended. @param isFound   `path` is verified to be a minimum */
+void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool isFound, PathSolution& path) const {
+    const bool isConverged = path.pathError <= m_options.pathErrorTolerance;
     updatePassages(problem, pose, isConverged, path);
     path.status = PathStatus::Solved;
     for (int e = 0; e < problem.getNumElements(); ++e)
         if (!problem.getElement(e).isPoint() && pose.hasElement(e) && path.contacts[e].isSwitchedOff)
             path.status = PathStatus::EndInside;
+    if (isFound) return;
     if (!isConverged) {
         path.status = PathStatus::NotConverged;
         return;

@@ -39,7 +39,7 @@ private:
                                    PathSolution& path);
     bool findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides, PathSolution& path);
     void switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
-    void finish(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
+    void finish(const PathProblem& problem, const PathPose& pose, bool isFound, PathSolution& path) const;
 
     PathSolverOptions m_options;
     ElasticString m_string;
