@@ -3,11 +3,11 @@
 #include <iostream>
 #include <vector>
 
-#include "tautline/cylinder.h"
-#include "tautline/ellipsoid.h"
-#include "tautline/path_kinematics.h"
-#include "tautline/path_solver.h"
-#include "tautline/torus.h"
+#include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/torus.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "support/scene_runner.h"
-#include "tautline/path_explanation.h"
+#include "tautline/paths/path_explanation.h"
 
 namespace {
 

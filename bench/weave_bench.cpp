@@ -3,7 +3,7 @@
 
 #include "support/allocation_counter.h"
 #include "support/weave_scene.h"
-#include "tautline/path_solver.h"
+#include "tautline/paths/path_solver.h"
 
 namespace {
 

@@ -5,12 +5,13 @@
 #include <random>
 
 #include "tautline/models/path_points.h"
-#include "tautline/paraboloid.h"
-#include "tautline/parametric_cylinder.h"
-#include "tautline/parametric_ellipsoid.h"
-#include "tautline/parametric_sphere.h"
-#include "tautline/parametric_torus.h"
 #include "tautline/simbody/conversions.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/elliptic_torus.h"
+#include "tautline/surfaces/paraboloid.h"
+#include "tautline/surfaces/sphere.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline::models {
 

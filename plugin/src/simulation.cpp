@@ -4,7 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "tautline/models/path_clearance.h"
+#include "tautline/paths/path_explanation.h"
+#include "tautline/simbody/clearance_probe.h"
 
 namespace tautline {
 namespace {
@@ -40,7 +41,9 @@ public:
         for (std::size_t i = 0; i < m_paths.size(); ++i) {
             std::string& reason = m_result.summaries[i].firstDegradation;
             if (reason.empty() && m_paths[i].cable.getStatistics().numDegradedSteps > 0)
-                reason = describeDegradation(m_paths[i].cable, state);
+                reason = "at " + std::to_string(state.getTime()) +
+                         " s: " + getName(m_paths[i].cable.calcStatus(state)) + ", " +
+                         m_paths[i].cable.explainStatus(state);
         }
     }
 
@@ -65,21 +68,6 @@ private:
                 return "left_hole";
         }
         return "";
-    }
-
-    static std::string describeDegradation(const Cable& cable, const State& state) {
-        const PathStatus status = cable.calcStatus(state);
-        return "at " + std::to_string(state.getTime()) +
-               " s: " + (status == PathStatus::NotMinimum ? describeFault(cable, state) : getName(status));
-    }
-
-    static std::string describeFault(const Cable& cable, const State& state) {
-        for (CableElementIndex e(0); e < cable.getNumElements(); ++e)
-            if (cable.getSolution(state).contacts[e].hasLeftHole)
-                return "left the hole of '" + cable.getElementName(e) + "'";
-        const int element = cable.calcVerification(state).element;
-        return element < 0 ? "not a minimum"
-                           : "not a minimum at obstacle '" + cable.getElementName(CableElementIndex(element)) + "'";
     }
 
     /** Calls a function with the element index of each obstacle and whether its surface is parametric. */
@@ -169,10 +157,27 @@ private:
     const ModelSystem& m_model;
     std::vector<ModelSystem::PathView> m_paths;
     SimulationResult& m_result;
-    std::vector<models::ClearanceProbe> m_probes;  ///< one per obstacle, path by path
+    std::vector<ClearanceProbe> m_probes;  ///< one per obstacle, path by path
 };
 
-void recordIterations(const ModelSystem::PathView& path, const models::IteratedPath& iterated, std::string& csv) {
+/** Tells a recorder of the contact events of paths as long as both are there. */
+class ListenerScope {
+public:
+    ListenerScope(const std::vector<ModelSystem::PathView>& paths, Recorder& recorder) : m_paths(paths) {
+        for (std::size_t i = 0; i < paths.size(); ++i)
+            paths[i].cable.setContactListener(
+                [&recorder, i](const ContactEvent& event) { recorder.recordEvent(i, event); });
+    }
+    ListenerScope(const ListenerScope&) = delete;
+    ~ListenerScope() {
+        for (const ModelSystem::PathView& path : m_paths) path.cable.setContactListener(nullptr);
+    }
+
+private:
+    const std::vector<ModelSystem::PathView>& m_paths;
+};
+
+void recordIterations(const ModelSystem::PathView& path, const IteratedPath& iterated, std::string& csv) {
     if (csv.empty()) csv = "path,iteration,obstacle,error\n";
     for (std::size_t i = 0; i < iterated.iterations.size(); ++i) {
         const auto write = [&](const std::string& obstacle, double error) {
@@ -189,16 +194,20 @@ void startPaths(const ModelSystem& model, State& state, SimulationResult& result
     for (const ModelSystem::PathView& path : model.getPaths()) {
         if (path.start.empty()) continue;
         model.getSystem().realize(state, Stage::Position);
-        const models::PathInPose inPose = models::makePathInPose(path.cable, state);
-        const models::IteratedPath iterated = models::iteratePath(inPose, path.start);
+        const PathProblem& problem = path.cable.getPathProblem();
+        const PathPose& pose = path.cable.getPathPose(state);
+        const IteratedPath iterated = iteratePath(problem, pose, path.start);
         recordIterations(path, iterated, result.starts);
-        PathSolution solution = models::makePathSolution(inPose, iterated.start);
+        PathSolution solution = makePathSolution(iterated.start);
         PathSolverOptions options = path.cable.getOptions();
         options.allowsColdStart = false;  // that would be another path
-        if (solution.status == PathStatus::Solved) PathSolver(options).solve(inPose.problem, inPose.pose, solution);
+        PathSolver solver(options);
+        solver.solveKeepingContacts(problem, pose, solution);
+        if (solution.status == PathStatus::Solved) solver.solve(problem, pose, solution);
         if (solution.status != PathStatus::Solved)
             throw std::runtime_error("path '" + path.name + "': the start that the model gives leads to no shortest " +
-                                     "path: " + getName(solution.status));
+                                     "path: " + getName(solution.status) + ", " +
+                                     explainStatus(problem, pose, solution));
         path.cable.continueFrom(state, solution);
     }
 }
@@ -246,17 +255,13 @@ SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excita
     State state = model.makeDefaultState();
     startPaths(model, state, result);
     Recorder recorder(model, result);
-    for (std::size_t i = 0; i < paths.size(); ++i)
-        Cable(paths[i].cable).setContactListener([&recorder, i](const ContactEvent& event) {
-            recorder.recordEvent(i, event);
-        });
+    const ListenerScope listening(paths, recorder);
     const auto start = std::chrono::steady_clock::now();
     integrate(model, state, options, recorder, reportProgress, result.finalState);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (std::size_t i = 0; i < paths.size(); ++i) {
         result.summaries[i].statistics = paths[i].cable.getStatistics();
         result.wrappingSeconds += result.summaries[i].statistics.seconds;
-        Cable(paths[i].cable).setContactListener(nullptr);
     }
     return result;
 }

@@ -1,8 +1,8 @@
 // A forearm on a pin, held up by a muscle that wraps over a cylinder at the elbow.
 #include <Simbody.h>
-#include <tautline/cylinder.h>
 #include <tautline/simbody/cable.h>
 #include <tautline/simbody/hill_muscle.h>
+#include <tautline/surfaces/cylinder.h>
 using namespace SimTK;
 
 int main() {

@@ -3,7 +3,7 @@
 #include "cable_impl.h"
 #include "cable_subsystem_impl.h"
 #include "tautline/error.h"
-#include "tautline/path_kinematics.h"
+#include "tautline/paths/path_kinematics.h"
 #include "tautline/simbody/conversions.h"
 
 namespace tautline {
@@ -129,7 +129,7 @@ bool Cable::isDisabledByDefault() const {
     return get().isDisabledByDefault();
 }
 
-void Cable::setContactListener(std::function<void(const ContactEvent&)> listener) {
+void Cable::setContactListener(std::function<void(const ContactEvent&)> listener) const {
     upd().setListener(std::move(listener));
 }
 
@@ -177,6 +177,10 @@ SimTK::Transform Cable::getElementFrame(CableElementIndex element) const {
 
 bool Cable::hasMovingPoints() const {
     return get().hasMovingPoints();
+}
+
+const PathProblem& Cable::getPathProblem() const {
+    return get().getProblem();
 }
 
 std::shared_ptr<const Surface> Cable::getSurface(CableElementIndex element) const {
@@ -234,6 +238,15 @@ const PathSolution& Cable::getSolution(const State& state) const {
 PathVerification Cable::calcVerification(const State& state) const {
     const PathSolution& path = get().getPath(state, "Cable::calcVerification()");
     return verifyPath(get().getProblem(), get().getPose(state), path);
+}
+
+std::string Cable::explainStatus(const State& state) const {
+    return get().explainStatus(state);
+}
+
+const PathPose& Cable::getPathPose(const State& state) const {
+    get().getPath(state, "Cable::getPathPose()");
+    return get().getPose(state);
 }
 
 bool Cable::isActive(const State& state, CableElementIndex element) const {

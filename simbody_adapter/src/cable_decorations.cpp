@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tautline/cylinder.h"
-#include "tautline/ellipsoid.h"
 #include "tautline/error.h"
 #include "tautline/simbody/conversions.h"
-#include "tautline/sphere.h"
-#include "tautline/surface_mesh.h"
-#include "tautline/torus.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/sphere.h"
+#include "tautline/surfaces/surface_mesh.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline {
 

@@ -6,11 +6,13 @@
 
 #include "cable_subsystem_impl.h"
 #include "contact_event_handler.h"
-#include "contact_settling.h"
 #include "tautline/error.h"
-#include "tautline/path_kinematics.h"
+#include "tautline/paths/contact_settling.h"
+#include "tautline/paths/contact_switch.h"
+#include "tautline/paths/path_explanation.h"
+#include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/single_contact.h"
 #include "tautline/simbody/conversions.h"
-#include "tautline/single_contact.h"
 
 namespace tautline {
 
@@ -21,11 +23,7 @@ using SimTK::State;
 
 namespace {
 
-bool isFinite(const PathPose& pose) {
-    for (const Pose& X : pose.X_GE)
-        if (!X.p.allFinite() || !X.R.allFinite()) return false;
-    return true;
-}
+constexpr Real kBetweenEvents = -1e-6;  ///< arcs just below zero, in sizes, which the event finder watches
 
 bool hasLeftAnyHole(const PathSolution& path) {
     return std::any_of(path.contacts.begin(), path.contacts.end(),
@@ -270,7 +268,7 @@ void CableImpl::calcVelocities(const State& state, std::vector<SpatialVelocity>&
 
 void CableImpl::solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace,
                       PathSolution& path) const {
-    if (!isFinite(workspace.pose)) return makeEmptyPath(getNumElements(), path);
+    if (!workspace.pose.isFinite()) return makeEmptyPath(getNumElements(), path);
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     if (keepsContacts) {
@@ -370,8 +368,6 @@ PathStatus CableImpl::calcStatus(const State& state) const {
     for (const ObstacleContact& contact : path.contacts)
         if (contact.hasLeftHole) return PathStatus::NotMinimum;
     using Condition = PathVerification::Condition;
-    // Between events an arc may be just below zero: the event finder watches it.
-    constexpr Real kBetweenEvents = -1e-6;
     switch (verifyPath(m_problem, getPose(state), path, kBetweenEvents).condition) {
         case Condition::None:
             return PathStatus::Solved;
@@ -380,6 +376,12 @@ PathStatus CableImpl::calcStatus(const State& state) const {
         default:
             return PathStatus::NotMinimum;
     }
+}
+
+std::string CableImpl::explainStatus(const State& state) const {
+    PathSolution path = getPath(state, "Cable::explainStatus()");
+    path.status = calcStatus(state);
+    return tautline::explainStatus(m_problem, getPose(state), path, kBetweenEvents);
 }
 
 void CableImpl::countStep(const State& state) const {

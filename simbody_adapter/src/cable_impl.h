@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "cable_path_state.h"
-#include "tautline/path_verification.h"
+#include "tautline/paths/path_verification.h"
 #include "tautline/simbody/cable.h"
 
 namespace tautline {
@@ -77,6 +77,7 @@ public:
 
     /** With all conditions judged, contacts fixed or not. */
     PathStatus calcStatus(const SimTK::State& state) const;
+    std::string explainStatus(const SimTK::State& state) const;
     void countStep(const SimTK::State& state) const;
 
     CableStatistics getStatistics() const;

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "tautline/path_sensitivity.h"
-#include "tautline/path_solver.h"
+#include "tautline/paths/path_sensitivity.h"
+#include "tautline/paths/path_solver.h"
 
 namespace tautline {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "tautline/error.h"
-#include "tautline/patch_shape.h"
 #include "tautline/simbody/conversions.h"
+#include "tautline/surfaces/patch_shape.h"
 
 namespace tautline {
 

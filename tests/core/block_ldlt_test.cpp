@@ -1,5 +1,5 @@
 /** Symmetric block-tridiagonal factorization against dense algebra. */
-#include "tautline/block_ldlt.h"
+#include "paths/block_ldlt.h"
 
 #include <gtest/gtest.h>
 

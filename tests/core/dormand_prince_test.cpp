@@ -1,5 +1,5 @@
 /** The Runge-Kutta pairs on equations whose solution is known. */
-#include "tautline/dormand_prince.h"
+#include "tautline/geodesics/dormand_prince.h"
 
 #include <gtest/gtest.h>
 

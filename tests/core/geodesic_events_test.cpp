@@ -1,5 +1,5 @@
 /** Conjugate points, changes of pressure and exits from the domain along geodesics, against closed forms. */
-#include "tautline/geodesic_events.h"
+#include "tautline/geodesics/geodesic_events.h"
 
 #include <gtest/gtest.h>
 

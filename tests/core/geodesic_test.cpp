@@ -5,8 +5,8 @@
 
 #include "support/shapes.h"
 #include "tautline/error.h"
-#include "tautline/parametric_ellipsoid.h"
-#include "tautline/parametric_torus.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline::testing {
 namespace {

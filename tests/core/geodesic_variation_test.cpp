@@ -1,8 +1,8 @@
 /** Derivatives of a geodesic's end frames under the four natural variations against central differences. */
 #include <gtest/gtest.h>
 
+#include "paths/path_error.h"
 #include "support/shapes.h"
-#include "tautline/path_error.h"
 
 namespace tautline::testing {
 namespace {

@@ -1,15 +1,15 @@
 /** The introductory example of thesis Sec. 2.3.1, iterated by the core's geodesics and natural variations. */
 #include <gtest/gtest.h>
 
-#include "tautline/cylinder.h"
-#include "tautline/path_error.h"
+#include "paths/path_error.h"
+#include "tautline/surfaces/cylinder.h"
 
 namespace tautline {
 namespace {
 
-/** Tab. 2.1: a string from O on the unit circle, phi_O = 8/9 pi, to I at (2, 0). The circle is a cylinder seen along its
-axis; the geodesic from O has the length 8/9 pi - phi_Q. The thesis's path error is N_Q . (Q - I), not divided by the
-length of the line (Eqn. 2.2); its derivative here is that of the end frame by the length, column 3 of Eqn. 4.47. */
+/** Tab. 2.1: a string from O on the unit circle, phi_O = 8/9 pi, to I at (2, 0). The circle is a cylinder seen along
+its axis; the geodesic from O has the length 8/9 pi - phi_Q. The thesis's path error is N_Q . (Q - I), not divided by
+the length of the line (Eqn. 2.2); its derivative here is that of the end frame by the length, column 3 of Eqn. 4.47. */
 TEST(IntroductoryExample, IteratesAsThesisTab2_1) {
     const double rows[7][3] = {{0.8000000000000000, 2.618033988749895, 1.175570504584947},
                                {0.091113465560706, -0.918623772225352, 0.564697105227005},

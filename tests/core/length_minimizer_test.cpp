@@ -1,5 +1,5 @@
 /** The length, its derivatives along natural corrections, and its minimization over one contact set. */
-#include "tautline/length_minimizer.h"
+#include "paths/length_minimizer.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <iostream>
 
+#include "paths/path_newton.h"
 #include "support/random_chain.h"
 #include "support/weave_scene.h"
-#include "tautline/path_newton.h"
-#include "tautline/path_verification.h"
+#include "tautline/paths/path_verification.h"
 
 namespace tautline::testing {
 namespace {

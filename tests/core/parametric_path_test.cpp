@@ -4,10 +4,10 @@
 #include <cstdio>
 
 #include "support/surface_cases.h"
-#include "tautline/path_explanation.h"
-#include "tautline/path_kinematics.h"
-#include "tautline/path_solver.h"
-#include "tautline/path_verification.h"
+#include "tautline/paths/path_explanation.h"
+#include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/paths/path_verification.h"
 
 namespace tautline {
 namespace {

@@ -1,5 +1,5 @@
 /** Patches: what they reproduce, how they fit, how they go on beyond their edges. */
-#include "tautline/patch_fit.h"
+#include "tautline/surfaces/patch_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /** Elimination of the path error's Jacobian against dense algebra. */
-#include "tautline/path_jacobian.h"
+#include "paths/path_jacobian.h"
 
 #include <gtest/gtest.h>
 

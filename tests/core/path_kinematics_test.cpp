@@ -1,11 +1,11 @@
 /** Length rate, forces and moments of paths: balance and power at any path error, derivative of the length. */
-#include "tautline/path_kinematics.h"
+#include "tautline/paths/path_kinematics.h"
 
 #include <gtest/gtest.h>
 
 #include "support/random.h"
 #include "support/shapes.h"
-#include "tautline/path_solver.h"
+#include "tautline/paths/path_solver.h"
 
 namespace tautline::testing {
 namespace {

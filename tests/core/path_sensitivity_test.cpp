@@ -1,5 +1,5 @@
 /** Derivatives of a path with respect to the poses of its elements, against central differences. */
-#include "tautline/path_sensitivity.h"
+#include "tautline/paths/path_sensitivity.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <iostream>
 #include <random>
 
-#include "tautline/cylinder.h"
-#include "tautline/ellipsoid.h"
-#include "tautline/path_kinematics.h"
-#include "tautline/path_solver.h"
-#include "tautline/sphere.h"
-#include "tautline/torus.h"
+#include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/sphere.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline {
 namespace {

@@ -1,5 +1,5 @@
 /** Paths solved by hand, the meaning of each status, degenerate scenes, and the solver's promises. */
-#include "tautline/path_solver.h"
+#include "tautline/paths/path_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include "support/random.h"
 #include "support/weave_scene.h"
 #include "tautline/error.h"
-#include "tautline/path_kinematics.h"
-#include "tautline/path_verification.h"
-#include "tautline/torus.h"
+#include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/path_verification.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline::testing {
 namespace {
@@ -535,7 +535,7 @@ TEST(PathSolverRefuses, OptionsOutOfRangeWithNameAndValue) {
 TEST(PathSolverRefuses, ProblemsThatAreNoPath) {
     const auto sphere = std::make_shared<Sphere>(1);
     expectRefused("'ghost' has no surface", [] { PathProblem().addObstacle("ghost", nullptr); });
-    expectRefused("not finite", [&] { PathProblem().addObstacle("s", sphere, Vec3(0, kNaN, 0)); });
+    expectRefused("must be finite", [&] { PathProblem().addObstacle("s", sphere, Vec3(0, kNaN, 0)); });
     expectRefused("is a point and takes no hint", [] {
         PathProblem problem;
         problem.addPoint("o");

@@ -9,10 +9,10 @@ and within a fixed count of shots, and what is no solution is explained. */
 #include <map>
 
 #include "support/random_scene.h"
-#include "tautline/path_explanation.h"
-#include "tautline/path_kinematics.h"
-#include "tautline/path_solver.h"
-#include "tautline/path_verification.h"
+#include "tautline/paths/path_explanation.h"
+#include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/paths/path_verification.h"
 
 namespace tautline {
 namespace {

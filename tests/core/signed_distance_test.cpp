@@ -5,7 +5,7 @@
 
 #include "support/random.h"
 #include "support/shapes.h"
-#include "tautline/segment_clearance.h"
+#include "tautline/paths/segment_clearance.h"
 
 namespace tautline::testing {
 namespace {

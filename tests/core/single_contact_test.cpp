@@ -1,15 +1,15 @@
 /** Where one arc no longer describes how a ring holds the string: the witness falls through zero there, and the status
 says so from there on. */
-#include "tautline/single_contact.h"
+#include "tautline/paths/single_contact.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tautline/cylinder.h"
-#include "tautline/path_solver.h"
-#include "tautline/path_verification.h"
-#include "tautline/torus.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/paths/path_verification.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline {
 namespace {

@@ -3,15 +3,14 @@
 
 #include <cmath>
 
-#include "tautline/cylinder.h"
-#include "tautline/ellipsoid.h"
+#include "paths/hole_passages.h"
 #include "tautline/error.h"
-#include "tautline/hole_passage.h"
-#include "tautline/parametric_torus.h"
-#include "tautline/path_solver.h"
-#include "tautline/segment_clearance.h"
-#include "tautline/sphere.h"
-#include "tautline/torus.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/paths/segment_clearance.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/sphere.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline {
 namespace {
@@ -192,7 +191,8 @@ TEST(StartHint, RefusesWhatItCannotFollow) {
     EXPECT_EQ(getRefusal(sphere, ThreadHole{1}), "path: obstacle 'ring', sphere(radius=1), has no hole to thread");
     EXPECT_EQ(getRefusal(sphere, PassOnSide{Vec3::Zero()}),
               "path: the side of obstacle 'ring' needs a finite direction that is not zero, got (0 0 0)");
-    EXPECT_EQ(getRefusal(sphere, PassNear{Vec3(0, kNaN, 0)}), "path: the hint of obstacle 'ring' is not finite");
+    EXPECT_EQ(getRefusal(sphere, PassNear{Vec3(0, kNaN, 0)}),
+              "path: the hint of obstacle 'ring' must be finite, but is (  0 nan   0)");
     EXPECT_EQ(getRefusal(sphere, WindAround{1e9}),
               "path: the turns about obstacle 'ring' must be within 100, but are 1000000000");
     EXPECT_EQ(getRefusal(sphere, WindAround{kNaN}),

@@ -1,5 +1,5 @@
 /** Every surface of the project obeys the laws of surface_laws.h, and a wrong one is found out. */
-#include "tautline/surface_laws.h"
+#include "tautline/surfaces/surface_laws.h"
 
 #include <gtest/gtest.h>
 

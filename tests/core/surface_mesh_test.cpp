@@ -1,5 +1,5 @@
 /** The numbered properties of calcSurfaceMesh(), on every surface of the project. */
-#include "tautline/surface_mesh.h"
+#include "tautline/surfaces/surface_mesh.h"
 
 #include <gtest/gtest.h>
 

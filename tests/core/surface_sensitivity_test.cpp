@@ -7,9 +7,9 @@ against differences of paths that are solved anew. */
 
 #include "support/random.h"
 #include "support/surface_cases.h"
-#include "tautline/path_kinematics.h"
-#include "tautline/path_sensitivity.h"
-#include "tautline/path_solver.h"
+#include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/path_sensitivity.h"
+#include "tautline/paths/path_solver.h"
 
 namespace tautline::testing {
 namespace {

@@ -1,10 +1,10 @@
 /** The weave against the mean lengths that peers.md gives for it: values computed by others. */
 #include <gtest/gtest.h>
 
+#include "paths/elastic_string.h"
 #include "support/weave_scene.h"
-#include "tautline/elastic_string.h"
-#include "tautline/path_kinematics.h"
-#include "tautline/path_solver.h"
+#include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/path_solver.h"
 
 namespace tautline::testing {
 namespace {

@@ -3,12 +3,12 @@
 #include <iostream>
 
 #include "model_test_support.h"
-#include "tautline/ellipsoid.h"
 #include "tautline/error.h"
 #include "tautline/models/model_system.h"
-#include "tautline/parametric_cylinder.h"
-#include "tautline/parametric_ellipsoid.h"
-#include "tautline/parametric_torus.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/elliptic_torus.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline::models::testing {
 namespace {
@@ -19,16 +19,17 @@ public:
         : model(readOsimFile(TAUTLINE_SOURCE_DIR "/models/four_surfaces_" + form + ".osim")),
           state(model.makeDefaultState()) {
         model.getSystem().realize(state, SimTK::Stage::Position);
-        path = makePathInPose(getView().cable, state);
     }
     const ModelSystem::SpringSlot& getView() const { return model.getSprings().at(0); }
+    const PathProblem& getProblem() const { return getView().cable.getPathProblem(); }
+    const PathPose& getPose() const { return getView().cable.getPathPose(state); }
+    IteratedPath iterate() const { return iteratePath(getProblem(), getPose(), getView().start); }
     const Surface& getSurface(const std::string& name) const {
         return *getView().cable.getSurface(getView().cable.findElement(name));
     }
 
     ModelSystem model;
     SimTK::State state;
-    PathInPose path;
 };
 
 TEST(FourSurfacesModel, FormsAreThoseThatTheFilesAskFor) {
@@ -47,7 +48,7 @@ TEST(FourSurfacesModel, TheIterationConvergesQuadraticallyFromAnErrorOf1_11) {
     for (const char* form : {"implicit", "parametric"}) {
         SCOPED_TRACE(form);
         const FourSurfaces model(form);
-        const IteratedPath iterated = iteratePath(model.path, model.getView().start);
+        const IteratedPath iterated = model.iterate();
         const auto& iterations = iterated.iterations;
         EXPECT_NEAR(iterations.front().error, 1.11, 0.005);
         EXPECT_LE(iterations.size(), 6u) << "five iterations";
@@ -68,14 +69,8 @@ TEST(FourSurfacesModel, TheIterationConvergesQuadraticallyFromAnErrorOf1_11) {
 TEST(FourSurfacesModel, TheSolverGetsThereInFiveIterationsToo) {
     const FourSurfaces model("parametric");
     const PathStart& start = model.getView().start;
-    PathSolution path;
-    path.contacts.resize(start.size());
-    for (std::size_t e = 0; e < start.size(); ++e) {
-        if (!start[e]) continue;
-        path.contacts[e].isTouched = true;
-        path.contacts[e].start = *start[e];
-    }
-    PathSolver().solve(model.path.problem, model.path.pose, path);
+    PathSolution path = makePathSolution(start);
+    PathSolver().solve(model.getProblem(), model.getPose(), path);
     EXPECT_EQ(path.status, PathStatus::Solved);
     EXPECT_FALSE(path.wasCold);
     EXPECT_LE(path.iterations, 5);
@@ -85,10 +80,11 @@ TEST(FourSurfacesModel, TheStartLeadsToThePathThatIsFoundFromHints) {
     for (const char* form : {"implicit", "parametric"}) {
         SCOPED_TRACE(form);
         const FourSurfaces model(form);
-        const IteratedPath iterated = iteratePath(model.path, model.getView().start);
-        PathSolution path = makePathSolution(model.path, iterated.start);
+        const IteratedPath iterated = model.iterate();
+        PathSolution path = makePathSolution(iterated.start);
+        PathSolver().solveKeepingContacts(model.getProblem(), model.getPose(), path);
         EXPECT_EQ(path.status, PathStatus::Solved);
-        EXPECT_TRUE(verifyPath(model.path.problem, model.path.pose, path).isMinimum());
+        EXPECT_TRUE(verifyPath(model.getProblem(), model.getPose(), path).isMinimum());
         EXPECT_NEAR(path.length, model.getView().cable.getLength(model.state), 1e-11);
     }
 }
@@ -96,8 +92,8 @@ TEST(FourSurfacesModel, TheStartLeadsToThePathThatIsFoundFromHints) {
 TEST(FourSurfacesModel, AStudyContinuesFromAGivenPath) {
     FourSurfaces model("implicit");
     const Cable& cable = model.getView().cable;
-    const IteratedPath iterated = iteratePath(model.path, model.getView().start);
-    cable.continueFrom(model.state, makePathSolution(model.path, iterated.start));
+    const IteratedPath iterated = model.iterate();
+    cable.continueFrom(model.state, makePathSolution(iterated.start));
     cable.resetStatistics();
     EXPECT_TRUE(cable.areContactsFixed(model.state));
     model.model.getSystem().realize(model.state, SimTK::Stage::Position);

@@ -139,10 +139,12 @@ TEST(SimmSpline, IsTwiceContinuouslyDifferentiableInside) {
 
 TEST(ScalarFunction, DerivativesAgreeWithDifferences) {
     const std::vector<double> x{-1.2, -0.5, 0.1, 0.9, 2.1}, y{0.4, -0.2, 0.9, 0.3, 0.5};
-    const ScalarFunction functions[] = {
-        ScalarFunction::simmSpline(x, y), ScalarFunction::simmSpline(x, y).scaledBy(-1.7),
-        ScalarFunction::polynomial({0.3, -1.0, 0.2, 2.0}), ScalarFunction::linear(2.0, 1.0),
-        ScalarFunction::sine(0.7, 1.3, 0.2, -0.4), ScalarFunction::sine(0.7, 1.3, 0.2, -0.4).scaledBy(-2.0)};
+    const ScalarFunction functions[] = {ScalarFunction::simmSpline(x, y),
+                                        ScalarFunction::simmSpline(x, y).scaledBy(-1.7),
+                                        ScalarFunction::polynomial({0.3, -1.0, 0.2, 2.0}),
+                                        ScalarFunction::linear(2.0, 1.0),
+                                        ScalarFunction::sine(0.7, 1.3, 0.2, -0.4),
+                                        ScalarFunction::sine(0.7, 1.3, 0.2, -0.4).scaledBy(-2.0)};
     const double h = 1e-5;  // near the cube root of the rounding unit
     for (const ScalarFunction& function : functions) {
         for (double at : {-2.0, -0.9, 0.0, 0.5, 1.5, 3.0}) {

@@ -2,12 +2,12 @@
 /** Scenes of the adapter's tests. */
 #include <gtest/gtest.h>
 
-#include "tautline/cylinder.h"
-#include "tautline/ellipsoid.h"
 #include "tautline/error.h"
 #include "tautline/simbody/cable.h"
-#include "tautline/sphere.h"
-#include "tautline/torus.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/sphere.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline::testing {
 

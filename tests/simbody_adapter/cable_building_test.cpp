@@ -27,7 +27,7 @@ TEST(CableBuilding, RefusesBadInputByNameAndValue) {
     EXPECT_MESSAGE(cable.addObstacle(ground, Transform(), nullptr, std::nullopt, "o"),
                    "cable 'b': obstacle 'o' has no surface");
     EXPECT_MESSAGE(cable.addObstacle(ground, Transform(), sphere, SimTK::Vec3(SimTK::NaN), "o"),
-                   "the hint of obstacle 'o' is not finite");
+                   "the hint of obstacle 'o' must be finite, but is (nan nan nan)");
     cable.addObstacle(ground, Transform(), sphere, std::nullopt, "o");
     EXPECT_MESSAGE(cable.addViaPoint(ground, SimTK::Vec3(0), "o"), "an element 'o' already");
     EXPECT_MESSAGE(cable.addViaPoint(ground, SimTK::Vec3(SimTK::Infinity), "p"), "'p' is not finite");

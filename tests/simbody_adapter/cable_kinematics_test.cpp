@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "adapter_scenes.h"
-#include "tautline/bspline_patch.h"
+#include "tautline/surfaces/bspline_patch.h"
 
 namespace tautline::testing {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "adapter_scenes.h"
 #include "support/random.h"
-#include "tautline/plane.h"
-#include "tautline/polynomial_patch.h"
-#include "tautline/surface_laws.h"
+#include "tautline/surfaces/plane.h"
+#include "tautline/surfaces/polynomial_patch.h"
+#include "tautline/surfaces/surface_laws.h"
 
 namespace tautline::testing {
 namespace {

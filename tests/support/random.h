@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "tautline/surface.h"
+#include "tautline/surfaces/surface.h"
 
 namespace tautline::testing {
 

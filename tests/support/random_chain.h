@@ -2,9 +2,9 @@
 /** Chains of random geodesics on shapes of all kinds, varied along their natural corrections for differences. */
 #include <cmath>
 
+#include "paths/path_error.h"
 #include "support/shapes.h"
-#include "tautline/path_error.h"
-#include "tautline/path_solver.h"
+#include "tautline/paths/path_solver.h"
 
 namespace tautline::testing {
 

@@ -7,7 +7,7 @@ degenerate ones crowded in. A seed gives the same scene on every machine. */
 #include <string>
 
 #include "support/surface_cases.h"
-#include "tautline/path_problem.h"
+#include "tautline/paths/path_problem.h"
 
 namespace tautline::testing {
 

@@ -9,12 +9,12 @@ described beside them. Shared by tests and benchmarks. */
 #include <string>
 #include <vector>
 
-#include "tautline/cylinder.h"
-#include "tautline/ellipsoid.h"
 #include "tautline/error.h"
-#include "tautline/path_problem.h"
-#include "tautline/sphere.h"
-#include "tautline/torus.h"
+#include "tautline/paths/path_problem.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/sphere.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline::testing {
 

@@ -6,10 +6,10 @@ verified ones. Shared by the report program and the tests. */
 #include <vector>
 
 #include "support/scene_file.h"
-#include "tautline/contact_switch.h"
-#include "tautline/path_kinematics.h"
-#include "tautline/path_solver.h"
-#include "tautline/path_verification.h"
+#include "tautline/paths/contact_switch.h"
+#include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/paths/path_verification.h"
 
 namespace tautline::testing {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "support/random.h"
-#include "tautline/cylinder.h"
-#include "tautline/ellipsoid.h"
-#include "tautline/sphere.h"
-#include "tautline/torus.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/sphere.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline::testing {
 

@@ -7,11 +7,11 @@ so that the path is held and cannot slip off. */
 #include <string>
 #include <vector>
 
-#include "tautline/cylinder.h"
-#include "tautline/ellipsoid.h"
-#include "tautline/path_problem.h"
-#include "tautline/path_solution.h"
-#include "tautline/sphere.h"
+#include "tautline/paths/path_problem.h"
+#include "tautline/paths/path_solution.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/sphere.h"
 
 namespace tautline::testing {
 

@@ -41,6 +41,11 @@ struct SpatialVelocity {
     Vec3 v = Vec3::Zero();
 };
 
+/** Velocity of the material point of frame E that is at a ground point. */
+inline Vec3 calcStationVelocity(const Pose& X_GE, const SpatialVelocity& V_GE, const Vec3& point_G) {
+    return V_GE.v + V_GE.w.cross(point_G - X_GE.p);
+}
+
 /** A force and its moment about a frame's origin, both in ground: moment [N m], force [N]. */
 struct SpatialForce {
     Vec3 moment = Vec3::Zero();

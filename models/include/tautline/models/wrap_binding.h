@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "tautline/models/model_builder.h"
-#include "tautline/start_hint.h"
-#include "tautline/surface.h"
+#include "tautline/paths/start_hint.h"
+#include "tautline/surfaces/surface.h"
 
 namespace tautline::models {
 

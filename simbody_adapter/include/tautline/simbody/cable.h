@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "tautline/path_solver.h"
-#include "tautline/path_verification.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/paths/path_verification.h"
+#include "tautline/paths/start_hint.h"
 #include "tautline/simbody/cable_subsystem.h"
 #include "tautline/simbody/moving_station.h"
-#include "tautline/start_hint.h"
 
 namespace tautline {
 
@@ -112,9 +112,6 @@ public:
     /** A disabled cable solves nothing, pulls at nothing and raises no events. */
     void setDisabledByDefault(bool isDisabled);
     bool isDisabledByDefault() const;
-
-    /** Called by the event handlers for each ContactEvent, in the thread of the study. */
-    void setContactListener(std::function<void(const ContactEvent&)> listener);
     ///@}
 
     /** @name What the cable is made of */
@@ -135,9 +132,15 @@ public:
     SimTK::Transform getElementFrame(CableElementIndex element) const;
     /** Whether there is a point that moves on its body, or holds the cable only under a condition. */
     bool hasMovingPoints() const;
+    /** The path as the core sees it, element for element; from realizeTopology() on. */
+    const PathProblem& getPathProblem() const;
     /** Null for points. */
     std::shared_ptr<const Surface> getSurface(CableElementIndex element) const;
     ///@}
+
+    /** Called by the event handlers for each ContactEvent, in the thread of the study. May be set at any time but while
+    a study runs; null: nobody is told. */
+    void setContactListener(std::function<void(const ContactEvent&)> listener) const;
 
     /** @name State [Model]: changing it invalidates Position */
     ///@{
@@ -176,6 +179,11 @@ public:
     /** Whether the path is a local minimum, contacts included, and if not, why: with fixed contacts
     getStatus() tells only whether the path error vanishes. */
     PathVerification calcVerification(const SimTK::State& state) const;
+    /** calcStatus() in a sentence: which condition is broken, at which obstacle and where in ground. */
+    std::string explainStatus(const SimTK::State& state) const;
+    /** Poses of the elements' frames in ground: with getPathProblem() and getSolution() what the core's functions take,
+    such as PathSensitivity. */
+    const PathPose& getPathPose(const SimTK::State& state) const;
     /** False for a conditional point that is passed over. */
     bool isActive(const SimTK::State& state, CableElementIndex element) const;
     /** Where an element's origin is on its body, moving or not [m]. */

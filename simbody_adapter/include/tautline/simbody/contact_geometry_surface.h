@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "tautline/implicit_surface.h"
+#include "tautline/surfaces/implicit_surface.h"
 
 namespace tautline {
 

@@ -1,0 +1,30 @@
+#pragma once
+#include "tautline/paths/path_problem.h"
+#include "tautline/paths/path_solution.h"
+
+namespace tautline {
+
+/** d_tol of thesis Sec. 6.2, normalized by max(|kappa_n|, 1/size): the one constant for switching contact,
+verifying and flagging it. Tiny, since a penetration h at touchdown makes the rate jump with h. */
+inline constexpr double kContactTolerance = -1e-10;
+
+/** What tells that one obstacle's contact must change: dimensionless, positive while the contact may stay, smooth
+through zero while contacts are kept, never 0 and never NaN. Touched: arc length over size (thesis Sec. 6.3).
+Lifted: clearance above kContactTolerance. Where nothing is smooth: 1 for an obstacle that is switched off, -1 for one
+that should be, and -1 for a ring that the path has left, which no switch mends: that path must be laid anew. */
+double calcContactWitness(const PathProblem& problem, const PathSolution& path, int element);
+
+/** Touches a lifted obstacle or lifts a touched one.
+@param path   solved at `pose`; its contact is changed, the path is to be solved anew */
+void switchContact(const PathProblem& problem, const PathPose& pose, int element, PathSolution& path);
+
+/** Puts a lifted obstacle in contact where its clearance was measured: the start of an arc for Newton's
+method, of length zero where the line just touches. @param e_S   direction of the line, in S */
+void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& contact);
+
+/** Takes a touched obstacle out of contact; its clearance is watched on the side where the arc began. */
+void liftContact(ObstacleContact& contact);
+
+bool haveSameContacts(const PathSolution& a, const PathSolution& b);
+
+}  // namespace tautline

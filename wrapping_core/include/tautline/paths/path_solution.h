@@ -1,0 +1,83 @@
+#pragma once
+#include <vector>
+
+#include "tautline/surfaces/surface.h"
+
+namespace tautline {
+
+/** How a solve ended. */
+enum class PathStatus {
+    Solved,        ///< max |eps| <= tolerance and all conditions of PathVerification hold
+    NotMinimum,    ///< max |eps| <= tolerance, but the path is not a local minimum (pressure, tangent, conjugate point)
+    LeftDomain,    ///< a contact lies outside its surface's domain
+    EndInside,     ///< a fixed point lies below the surface of an obstacle of its strand by more than d_tol; that
+                   ///< obstacle is switched off
+    NotConverged,  ///< max |eps| > tolerance after the allowed iterations; the best path met is returned
+};
+
+/** A short word for tables and files: "solved", "not_minimum", ... */
+const char* getName(PathStatus status);
+
+/** How a path goes through an obstacle's hole, between the fixed points or touched obstacles beside it. */
+struct HolePassage {
+    int count = 0;                  ///< along +z of S less against it
+    int from = -1, to = -1;         ///< elements beside: where this portion of the path begins and ends
+    Vec3 A_S = Vec3::Zero();        ///< where it begins
+    Vec3 B_S = Vec3::Zero();        ///< where it ends
+    Vec3 through_S = Vec3::Zero();  ///< where it last went through, if it does
+
+    bool isKnown() const { return from >= 0; }
+};
+
+/** What one obstacle does in a solved path. */
+struct ObstacleContact {
+    bool isTouched = false;
+    bool isSwitchedOff = false;  ///< an end of its strand is inside it
+    GeodesicStart start;         ///< in S; of the arc, or of the last arc while lifted
+    Geodesic geodesic;           ///< in S; only while touched
+    LineClearance clearance;     ///< in S; of the straight line that passes the surface while lifted
+    int segment = -1;            ///< while lifted: index of that straight segment
+    HolePassage passage;         ///< of surfaces that have a hole: the one that a continued path has to keep
+    bool hasLeftHole = false;    ///< the path no longer goes through the hole in that way
+};
+
+/** A straight segment between fixed points and arcs; A and B in ground. */
+struct StraightSegment {
+    int fromElement = -1, toElement = -1;
+    Vec3 A = Vec3::Constant(kNaN), B = Vec3::Constant(kNaN);
+    Vec3 e = Vec3::Constant(kNaN);  ///< unit vector from A to B
+    double length = kNaN;           ///< [m]
+};
+
+/** Why a string that has fallen taut is not one smooth path with one arc on each surface. */
+struct StringFault {
+    enum class Kind {
+        None,
+        Groove,       ///< it lies in the groove where two surfaces meet: a kink
+        TwoContacts,  ///< it touches one surface, leaves it, and touches it again
+        Sliding,      ///< it has not come to rest: it slides so slowly that it is next to a neutral course
+        OutOfOrder,   ///< it meets two obstacles against the order of the path: it would have to cross itself
+    };
+    Kind kind = Kind::None;
+    int element = -1;  ///< the obstacle concerned; -1 where a string slides clear of all
+    int other = -1;    ///< the second one of a groove, or the one that is met too early
+};
+
+/** A path: always finite and drawable, whatever the status. `contacts` has one entry per element of the
+problem (entries of points are unused) and is what a later solve starts from. */
+struct PathSolution {
+    PathStatus status = PathStatus::NotConverged;
+    double length = kNaN;     ///< straight segments and arcs [m]
+    double pathError = kNaN;  ///< max |eps| (thesis Eqn. 4.3), dimensionless
+    int iterations = 0;       ///< Newton iterations of this solve
+    int shots = 0;            ///< geodesics shot in this solve
+    bool wasCold = false;     ///< the start was found anew (elastic string), not continued
+    std::vector<ObstacleContact> contacts;
+    std::vector<StraightSegment> segments;
+    StringFault fault;                 ///< where the elastic string led to no solution: why
+    std::vector<double> errorHistory;  ///< max |eps| before each Newton iteration of the last run
+
+    bool isEmpty() const { return contacts.empty(); }
+};
+
+}  // namespace tautline

@@ -1,0 +1,16 @@
+#pragma once
+#include "tautline/geodesics/geodesic.h"
+
+namespace tautline {
+
+struct PathSolverOptions {
+    double pathErrorTolerance = 1e-11;  ///< on max |eps|; what Newton leaves is its square
+    int maxIterations = 40;             ///< of each method for one contact set
+    bool allowsColdStart = true;        ///< false: report NotConverged where the start given does not lead on
+    GeodesicOptions geodesics;
+
+    /** @throws InvalidInput naming the option that is out of its range. */
+    void validate() const;
+};
+
+}  // namespace tautline

@@ -1,0 +1,34 @@
+#pragma once
+#include "tautline/paths/path_problem.h"
+#include "tautline/paths/path_solution.h"
+
+namespace tautline {
+
+/** Why a path with vanishing path error is not a local minimum: the first condition that fails, and where. */
+struct PathVerification {
+    enum class Condition {
+        None,             ///< all hold
+        ReversedTangent,  ///< e . t <= 0 at an end of an arc: a cusp
+        NegativeLength,   ///< an arc shorter than kShortestArc
+        PullsOutward,     ///< kappa_n > 0 somewhere on an arc: a string would lift there
+        ConjugatePoint,   ///< the arc is longer than a shortest curve can be
+        Unstable,         ///< the second variation of the length is not positive: a saddle or a longest path
+        Penetration,      ///< a straight segment passes below a surface
+        OutsideDomain,    ///< an arc leaves the domain of its surface
+    };
+    Condition condition = Condition::None;
+    int element = -1;                     ///< the obstacle concerned
+    Vec3 place_G = Vec3::Constant(kNaN);  ///< where on the path, in ground [m]
+
+    bool isMinimum() const { return condition == Condition::None; }
+};
+
+/** Arcs shorter than this, in sizes of their surfaces, are of negative length. */
+inline constexpr double kShortestArc = -1e-12;
+
+/** Checks the conditions of a local minimum on a solved path, contact set included.
+@param shortestArc   in sizes of the surface; below it an arc is of negative length */
+PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                            double shortestArc = kShortestArc);
+
+}  // namespace tautline

@@ -1,0 +1,39 @@
+#pragma once
+#include "tautline/surfaces/central_quadric.h"
+#include "tautline/surfaces/parametric_twin.h"
+
+namespace tautline {
+
+/** Cylinder of infinite length along the z axis of S with an elliptic section. */
+class EllipticCylinder final : public CentralQuadric<EllipticCylinder> {
+public:
+    /** @param semiAxisX, semiAxisY   of the section [m], positive; InvalidInput otherwise */
+    EllipticCylinder(double semiAxisX, double semiAxisY);
+
+    const Vec2& getSemiAxes() const { return m_semiAxes; }
+    std::string getDescription() const override;
+
+private:
+    Vec2 m_semiAxes;
+};
+
+/** The same cylinder: (a cos u, b sin u, v); u counts turns. */
+class ParametricEllipticCylinder final : public ParametricTwin<ParametricEllipticCylinder, EllipticCylinder> {
+public:
+    ParametricEllipticCylinder(double semiAxisX, double semiAxisY)
+        : ParametricTwin(EllipticCylinder(semiAxisX, semiAxisY)) {}
+
+    ParametricValue calcParametric(const Vec2& uv, int) const {
+        const double a = m_twin.getSemiAxes()[0], b = m_twin.getSemiAxes()[1], c = std::cos(uv[0]), s = std::sin(uv[0]);
+        return {{a * c, b * s, uv[1]}, {-a * s, b * c, 0}, Vec3::UnitZ(),
+                {-a * c, -b * s, 0},   Vec3::Zero(),       Vec3::Zero()};
+    }
+    Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
+        return {std::atan2(p_S.y() / m_twin.getSemiAxes()[1], p_S.x() / m_twin.getSemiAxes()[0]), p_S.z()};
+    }
+};
+
+extern template class ParametricShape<ParametricEllipticCylinder>;
+extern template class ParametricTwin<ParametricEllipticCylinder, EllipticCylinder>;
+
+}  // namespace tautline

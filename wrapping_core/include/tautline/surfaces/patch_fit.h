@@ -1,0 +1,52 @@
+#pragma once
+/** Least-squares fits of patches to clouds of points (thesis Sec. 3.5, Fig. 3.9). */
+#include "tautline/surfaces/bspline_patch.h"
+#include "tautline/surfaces/polynomial_patch.h"
+
+namespace tautline {
+
+/** How well a patch fits. */
+struct FitReport {
+    std::vector<double> residuals;  ///< distance of each point from the patch at its (u, v) [m]
+    double sumOfSquares = kNaN;     ///< of the residuals [m^2]
+    double rms = kNaN;              ///< [m]
+    double largest = kNaN;          ///< [m]
+    int numUnknowns = 0;            ///< coefficients per component
+};
+
+/** Which terms u^i v^j a polynomial has. */
+enum class PolynomialTerms {
+    Tensor,       ///< i <= n and j <= m
+    TotalDegree,  ///< i + j <= max(n, m), i <= n, j <= m
+};
+
+struct PolynomialFit {
+    PolynomialPatch patch;
+    FitReport report;
+};
+struct BSplineFit {
+    BSplinePatch patch;
+    FitReport report;
+};
+
+/** Fits x(u, v) to points with known surface coordinates.
+@param uv, points   as many of each, at least as many as there are terms, and not all on a curve that one of the terms
+                    misses; InvalidInput otherwise
+@param domain       of the patch; by default the rectangle that holds all uv */
+PolynomialFit fitPolynomialPatch(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int orderU, int orderV,
+                                 PolynomialTerms terms, const ParameterDomain& domain, double normalSign = 1);
+
+/** Fits heights z(x, y): a height patch over the rectangle that holds all (x, y). */
+PolynomialFit fitPolynomialHeights(const std::vector<Vec3>& points, int orderU, int orderV, PolynomialTerms terms,
+                                   double normalSign = 1);
+
+/** The same with B-splines of numU by numV control points (>= 4 each). Control points that the data leave open are
+those of least norm. */
+BSplineFit fitBSplinePatch(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int numU, int numV,
+                           const ParameterDomain& domain, double normalSign = 1);
+BSplineFit fitBSplineHeights(const std::vector<Vec3>& points, int numU, int numV, double normalSign = 1);
+
+/** The rectangle that holds all coordinates. */
+ParameterDomain findDomain(const std::vector<Vec2>& uv);
+
+}  // namespace tautline

@@ -1,0 +1,107 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "tautline/geodesics/geodesic.h"
+
+namespace tautline {
+
+struct ImplicitValue;
+struct ParametricValue;
+
+/** Where a straight line comes nearest to a surface, or dips deepest below it (thesis Sec. 6.1, 7.6):
+D on the line, C on the surface, D - C orthogonal to both. */
+struct LineClearance {
+    SurfacePoint C;                 ///< in S
+    Vec3 N = Vec3::Constant(kNaN);  ///< outward normal at C, in S
+    double lineCoordinate = kNaN;   ///< of D, from the segment's start [m]
+    double distance = kNaN;         ///< d = (D - C) . N [m], negative: the line is below the surface
+    double scale = 1;               ///< max(|kappa_n|, 1/size) at C: d * scale is compared with d_tol
+    bool found = false;             ///< false: no critical point was found from the start given
+
+    /** The side that is watched: C and N of the last line that was clear of the surface. They stay while a line
+    is below it, or a line that goes through in many steps would carry the side along to the other one. */
+    SurfacePoint keptC;
+    Vec3 keptN = Vec3::Constant(kNaN);
+};
+
+/** A smooth surface in its own frame S, outward normal N: what a string can wrap over.
+
+Implement it through ImplicitSurface (a function f(p) = 0) or ParametricSurface (x(u, v)), which deduce
+everything below; override with a closed form where one exists. All methods are const and may be called
+from many threads at once. Lengths in metres. No method throws for finite input. */
+class Surface {
+public:
+    virtual ~Surface() = default;
+
+    /** Kind of the surface and its dimensions, for messages: "cylinder(radius=0.4)". */
+    virtual std::string getDescription() const = 0;
+
+    /** Characteristic length [m]: the scale of tolerances, step limits and hints. */
+    virtual double getSize() const = 0;
+
+    /** Height of a point above the surface [m]: exact in sign, first order in size near the surface.
+    @param p_S   any point
+    @param N_S   unit outward direction of steepest ascent at p_S */
+    virtual double calcHeight(const Vec3& p_S, Vec3& N_S) const = 0;
+
+    /** A surface point near p_S: the foot of the steepest descent, the nearest point if p_S is close. */
+    virtual SurfacePoint findSurfacePoint(const Vec3& p_S) const = 0;
+
+    /** The surface point reached from `start` by a small displacement [m] in its tangent plane. */
+    virtual SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vec3& displacement_S) const = 0;
+
+    /** Trihedron and curvatures at a surface point, t being `direction_S` made tangent and unit. */
+    virtual DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const = 0;
+
+    /** Shoots the geodesic of `start` with its Jacobi fields (thesis Sec. 4.6, step 1). */
+    virtual void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options,
+                               Geodesic& geodesic) const = 0;
+
+    /** The critical point of the line A + s e, by Newton's method from `clearance.C` and on the side of
+    `clearance.N`; sets all fields but the kept ones. Closed forms need no C, and without N (not finite) take the
+    side on which the line passes. findSegmentClearance() calls this with what is kept. */
+    virtual void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const;
+
+    /** Coordinate s in [0, length] at which the segment A + s e is lowest over the surface: where to look for
+    its clearance. By default the lowest of samples spaced by the surface's size, refined. */
+    virtual double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const;
+
+    /** The function f behind an implicit surface, the x(u, v) behind a parametric one, for checks of their derivatives.
+    @return false, and nothing set, if the surface has no such form */
+    virtual bool calcImplicitForm(const Vec3& /*p_S*/, ImplicitValue& /*value*/) const { return false; }
+    virtual bool calcParametricForm(const SurfacePoint& /*point*/, ParametricValue& /*value*/) const { return false; }
+
+    /** True if no straight line that leaves the surface tangentially can meet it again, and a geodesic
+    presses on it everywhere: such checks are then skipped. */
+    virtual bool isConvex() const { return false; }
+
+    /** How often the segment A B passes the surface's hole: 1 along +z of S, -1 against it. A surface with a hole has
+    it about the z axis, spanned by a disc in the plane z = 0 whose rim lies inside the tube. */
+    virtual int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const;
+
+    /** How far inside the domain on which the surface is defined the point lies: smooth across the domain's edge, there
+    zero, negative outside, in a unit of the surface's own choice; infinite where there is no edge. */
+    virtual double calcDomainMargin(const SurfacePoint&) const { return kInfinity; }
+
+    /** True where (u, v) or p lies in the domain, edges included. Override the margin instead: where only this one is,
+    arcs are judged by their ends. */
+    virtual bool isInDomain(const SurfacePoint& point) const { return calcDomainMargin(point) >= 0; }
+
+    /** Rates of (u, v) of a point that moves along the surface with a tangential velocity.
+    @return false, and nothing set, on surfaces without coordinates */
+    virtual bool calcCoordinateRates(const SurfacePoint& /*point*/, const Vec3& /*velocity_S*/,
+                                     Vec2& /*uvRates*/) const {
+        return false;
+    }
+};
+
+/** countHoleCrossings() for a hole spanned by the disc rho < radius in the plane z = 0. */
+int countDiscCrossings(double radius, const Vec3& A_S, const Vec3& B_S);
+
+/** Points along a geodesic, ends included, by shooting from each to the next. Needs count >= 2.
+@param points_S   resized to `count` */
+void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const GeodesicOptions& options, int count,
+                    std::vector<Vec3>& points_S);
+
+}  // namespace tautline

@@ -1,0 +1,53 @@
+#pragma once
+#include "tautline/surfaces/implicit_surface.h"
+#include "tautline/surfaces/parametric_twin.h"
+#include "tautline/surfaces/torus_form.h"
+
+namespace tautline {
+
+/** Ring torus about the z axis of S: a tube of radius r around a circle of radius R > r in the plane z = 0. */
+class Torus final : public ImplicitShape<Torus> {
+public:
+    /** @param ringRadius   from the axis to the tube's centre [m]
+    @param tubeRadius   [m]; 0 < tubeRadius < ringRadius, InvalidInput otherwise */
+    Torus(double ringRadius, double tubeRadius);
+
+    double getRingRadius() const { return m_ringRadius; }
+    double getTubeRadius() const { return m_tubeRadius; }
+    double getSize() const override { return m_tubeRadius; }
+    std::string getDescription() const override;
+
+    /** As the elliptic torus with both semi-axes r: f = ((rho - R)^2 + z^2 - r^2)/(2r). */
+    ImplicitValue calcImplicit(const Vec3& p) const {
+        return calcTorusForm(p, m_ringRadius, m_tubeRadius, m_tubeRadius);
+    }
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return countDiscCrossings(m_ringRadius, A_S, B_S);
+    }
+    double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
+
+private:
+    double m_ringRadius, m_tubeRadius;
+};
+
+extern template class ImplicitShape<Torus>;
+
+/** Ring torus about the z axis of S in ring angle u and tube angle v (thesis Eqn. 3.69). */
+class ParametricTorus final : public ParametricTwin<ParametricTorus, Torus> {
+public:
+    /** @param ringRadius   from the axis to the tube's centre [m]
+    @param tubeRadius   [m]; 0 < tubeRadius < ringRadius, InvalidInput otherwise */
+    ParametricTorus(double ringRadius, double tubeRadius) : ParametricTwin(Torus(ringRadius, tubeRadius)) {}
+
+    ParametricValue calcParametric(const Vec2& uv, int) const {
+        return calcTorusPoint(uv, m_twin.getRingRadius(), m_twin.getTubeRadius(), m_twin.getTubeRadius());
+    }
+    Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
+        return calcTorusParameters(p_S, m_twin.getRingRadius(), m_twin.getTubeRadius(), m_twin.getTubeRadius());
+    }
+};
+
+extern template class ParametricShape<ParametricTorus>;
+extern template class ParametricTwin<ParametricTorus, Torus>;
+
+}  // namespace tautline

@@ -1,0 +1,206 @@
+#include "tautline/geodesics/geodesic_events.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tautline {
+namespace {
+
+/** A geodesic's state at one place: enough to go on from, and the Jacobi field r since its start. */
+struct Station {
+    double s = 0;
+    SurfacePoint point;
+    DarbouxFrame frame;
+    double r = 0, rDot = 1;
+    double value = kNaN;  ///< of the function whose sign is watched
+};
+
+/** Walks along a geodesic and finds the zeros of a function of its stations. */
+template <class Function>
+class ArcWalk {
+public:
+    ArcWalk(const Surface& surface, const GeodesicStart& start, const GeodesicOptions& options,
+            const Function& function)
+        : m_surface(surface), m_options(options), m_function(function), m_length(start.length) {
+        Geodesic none;
+        surface.shootGeodesic({start.point, start.tangent, 0}, options, none);
+        m_now.point = none.endPoint, m_now.frame = none.Q;
+        m_now.value = function(m_now);
+    }
+
+    const Station& getStart() const { return m_now; }
+
+    /** Calls `found(station)` at each change of sign in order, until it returns false. Zero counts as positive. */
+    template <class Found>
+    void forEachZero(const Found& found) {
+        Station before, middle = m_now;  // the last stations but one, and but none
+        bool hasBefore = false;
+        for (int piece = 0; piece < kMaxPieces && std::abs(middle.s) < std::abs(m_length); ++piece) {
+            const double left = m_length - middle.s, spacing = calcSpacing(middle);
+            const Station after = calcStation(middle, std::abs(left) <= spacing ? left : std::copysign(spacing, left));
+            if (!after.frame.x.allFinite() || std::isnan(after.value)) return;
+            if (hasBefore && !differInSign(before, middle) && !differInSign(middle, after)) {
+                if (const std::optional<Station> dip = findDip(before, middle, after)) {
+                    const bool isEarly = std::abs(dip->s) < std::abs(middle.s);
+                    if (!found(findZero(isEarly ? before : middle, *dip))) return;
+                    if (!found(findZero(*dip, isEarly ? middle : after))) return;
+                }
+            }
+            if (differInSign(middle, after) && !found(findZero(middle, after))) return;
+            before = middle, middle = after, hasBefore = true;
+        }
+    }
+
+private:
+    static constexpr int kMaxPieces = 4000;
+
+    /** An eighth of the local radius of curvature; more where the arc is so long that it would take too many. */
+    double calcSpacing(const Station& at) const {
+        const DarbouxFrame& f = at.frame;
+        const double curvature =
+            std::max({1 / m_surface.getSize(), std::abs(f.kappaN), std::abs(f.kappaB), std::abs(f.tauG)});
+        return std::max(0.125 / curvature, std::abs(m_length) / (0.5 * kMaxPieces));
+    }
+
+    Station calcStation(const Station& from, double distance) const {
+        Geodesic piece;
+        m_surface.shootGeodesic({from.point, from.frame.t, distance}, m_options, piece);
+        Station to;
+        to.s = from.s + distance, to.point = piece.endPoint, to.frame = piece.Q;
+        to.r = piece.a * from.r + piece.r * from.rDot, to.rDot = piece.aDot * from.r + piece.rDot * from.rDot;
+        to.value = piece.converged ? m_function(to) : kNaN;
+        return to;
+    }
+
+    static bool differInSign(const Station& a, const Station& b) { return (a.value < 0) != (b.value < 0); }
+
+    /** Bisection, steered by regula falsi (Illinois) where the values are finite. @return the station of the zero, on
+    the side of `from` */
+    Station findZero(Station from, const Station& to) const {
+        constexpr int kMaxIterations = 120;
+        const Station base = from;
+        double end = to.s, endValue = to.value, fromValue = from.value;
+        const double tolerance = 4e-16 * std::max(std::abs(end), m_surface.getSize());
+        for (int i = 0; i < kMaxIterations && std::abs(end - from.s) > tolerance; ++i) {
+            double weight = fromValue / (fromValue - endValue);
+            // Every third step halves the bracket, whatever the function is like.
+            if (i % 3 == 2 || !(weight > 0 && weight < 1)) weight = 0.5;
+            const double s = from.s + weight * (end - from.s);
+            if (s == from.s || s == end) break;
+            const Station at = calcStation(base, s - base.s);
+            if (std::isnan(at.value)) break;
+            if (at.value == 0) return at;
+            if ((at.value < 0) == (base.value < 0)) {
+                from = at, fromValue = at.value, endValue *= 0.5;
+            } else {
+                end = s, endValue = at.value, fromValue *= 0.5;
+            }
+        }
+        return from;
+    }
+
+    /** A station of the other sign between three of one sign, if a parabola through them says that there may be one.
+    The search halves by golden sections, which need no smoothness. */
+    std::optional<Station> findDip(const Station& a, const Station& b, const Station& c) const {
+        constexpr double kGolden = 0.6180339887498949;
+        constexpr int kSections = 40;
+        const double sign = b.value < 0 ? -1 : 1, ga = sign * a.value, gb = sign * b.value, gc = sign * c.value;
+        if (!(gb <= ga && gb <= gc) || !std::isfinite(ga + gc)) return {};
+        const double h1 = std::abs(b.s - a.s), h2 = std::abs(c.s - b.s);
+        const double bend = 2 * ((ga - gb) / h1 + (gc - gb) / h2) / (h1 + h2);
+        const double slope = ((gc - gb) / h2 * h1 - (ga - gb) / h1 * h2) / (h1 + h2);
+        const double lowest = bend > 0 ? gb - 0.5 * slope * slope / bend : gb;
+        if (!(lowest < 0.5 * gb)) return {};
+        double low = 0, high = h1 + h2;
+        const double direction = c.s < a.s ? -1 : 1;
+        Station left = calcStation(a, direction * (high - kGolden * high)),
+                right = calcStation(a, direction * kGolden * high);
+        for (int i = 0; i < kSections; ++i) {
+            if (sign * left.value < 0) return left;
+            if (sign * right.value < 0) return right;
+            if (sign * left.value < sign * right.value) {
+                high = std::abs(right.s - a.s), right = left;
+                left = calcStation(a, direction * (high - kGolden * (high - low)));
+            } else {
+                low = std::abs(left.s - a.s), left = right;
+                right = calcStation(a, direction * (low + kGolden * (high - low)));
+            }
+        }
+        return {};
+    }
+
+    const Surface& m_surface;
+    const GeodesicOptions& m_options;
+    const Function& m_function;
+    double m_length;
+    Station m_now;
+};
+
+GeodesicPlace makePlace(const Station& station) {
+    return {station.s, station.point};
+}
+
+}  // namespace
+
+std::optional<GeodesicPlace> findConjugatePoint(const Surface& surface, const GeodesicStart& start,
+                                                const GeodesicOptions& options) {
+    // r is zero at the start, where r/s is one.
+    const auto field = [](const Station& at) { return at.s == 0 ? 1.0 : at.r / at.s; };
+    std::optional<GeodesicPlace> place;
+    ArcWalk(surface, start, options, field).forEachZero([&](const Station& at) {
+        place = makePlace(at);
+        return false;
+    });
+    return place;
+}
+
+std::vector<GeodesicPlace> findPressureChanges(const Surface& surface, const GeodesicStart& start,
+                                               const GeodesicOptions& options) {
+    std::vector<GeodesicPlace> places;
+    if (surface.isConvex()) return places;
+    const auto pressure = [](const Station& at) { return at.frame.kappaN; };
+    ArcWalk(surface, start, options, pressure).forEachZero([&](const Station& at) {
+        if (at.s != 0) places.push_back(makePlace(at));  // a zero at the start is no change inside
+        return true;
+    });
+    return places;
+}
+
+std::optional<GeodesicPlace> findDomainExit(const Surface& surface, const GeodesicStart& start,
+                                            const GeodesicOptions& options) {
+    const auto margin = [&surface](const Station& at) {
+        const double value = surface.calcDomainMargin(at.point);
+        return value >= 0 && !surface.isInDomain(at.point) ? -kInfinity : value;
+    };
+    ArcWalk walk(surface, start, options, margin);
+    const double first = walk.getStart().value;
+    if (!(first >= 0)) return makePlace(walk.getStart());
+    std::optional<GeodesicPlace> place;
+    if (first == kInfinity) {  // no edge anywhere, unless a surface without margins says otherwise at the end
+        Geodesic arc;
+        surface.shootGeodesic(start, options, arc);
+        if (surface.isInDomain(arc.endPoint)) return place;
+    }
+    walk.forEachZero([&](const Station& at) {
+        place = makePlace(at);
+        return false;
+    });
+    return place;
+}
+
+double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const Geodesic& geodesic) {
+    constexpr GeodesicOptions kWalking{1e-6, 200};
+    double largest = std::max({geodesic.P.kappaN, geodesic.Q.kappaN, geodesic.maxKappaN});
+    const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * std::abs(start.length) / surface.getSize()));
+    GeodesicStart from = start;
+    from.length /= pieces;
+    Geodesic piece;
+    for (int i = 1; i < pieces; ++i) {
+        surface.shootGeodesic(from, kWalking, piece);
+        largest = std::max(largest, piece.Q.kappaN);
+        from.point = piece.endPoint, from.tangent = piece.Q.t;
+    }
+    return largest;
+}
+
+}  // namespace tautline

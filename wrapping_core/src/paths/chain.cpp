@@ -1,0 +1,67 @@
+#include "paths/chain.h"
+
+namespace tautline {
+
+void Chain::build(const PathProblem& problem, const PathPose& pose,
+                  const std::vector<ObstacleContact>& elementContacts) {
+    // Entries are used again as they stand: shootChain() sets all that is not set here.
+    std::size_t numContacts = 0, numSegments = 0;
+    int previousElement = -1, previousContact = -1;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const bool isPoint = problem.getElement(e).isPoint();
+        if (!pose.hasElement(e) || (!isPoint && !elementContacts[e].isTouched)) continue;
+        const int contact = isPoint ? -1 : static_cast<int>(numContacts);
+        if (!isPoint) {
+            if (numContacts == contacts.size()) contacts.emplace_back();
+            ChainContact& added = contacts[numContacts++];
+            added.element = e;
+            added.start = elementContacts[e].start;
+            added.segmentIn = static_cast<int>(numSegments);
+        }
+        if (previousElement >= 0) {
+            if (numSegments == segments.size()) segments.emplace_back();
+            ChainSegment& added = segments[numSegments++];
+            added.line.fromElement = previousElement, added.line.toElement = e;
+            added.fromContact = previousContact, added.toContact = contact;
+        }
+        previousElement = e, previousContact = contact;
+    }
+    contacts.resize(numContacts);
+    segments.resize(numSegments);
+}
+
+bool shootChain(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options, Chain& chain) {
+    bool isFinite = true;
+    for (ChainContact& contact : chain.contacts) {
+        Geodesic& geodesic = contact.geodesic;
+        problem.getElement(contact.element).surface->shootGeodesic(contact.start, options, geodesic);
+        isFinite = isFinite && geodesic.converged && geodesic.Q.x.allFinite() && geodesic.Q.t.allFinite();
+        const Pose& X_GS = pose.X_GE[contact.element];
+        contact.P = geodesic.P.reexpressedBy(X_GS);
+        contact.Q = geodesic.Q.reexpressedBy(X_GS);
+    }
+    for (ChainSegment& segment : chain.segments) {
+        StraightSegment& line = segment.line;
+        line.A = segment.fromContact < 0 ? pose.X_GE[line.fromElement].p : chain.contacts[segment.fromContact].Q.x;
+        line.B = segment.toContact < 0 ? pose.X_GE[line.toElement].p : chain.contacts[segment.toContact].P.x;
+        const Vec3 AB = line.B - line.A;
+        line.length = AB.norm();
+        // Coincident ends: any direction serves, the neighbouring tangent if there is one.
+        if (line.length > 0)
+            line.e = AB / line.length;
+        else if (segment.toContact >= 0)
+            line.e = chain.contacts[segment.toContact].P.t;
+        else
+            line.e = segment.fromContact >= 0 ? chain.contacts[segment.fromContact].Q.t : Vec3(Vec3::UnitX());
+    }
+    return isFinite;
+}
+
+double calcLength(const Chain& chain) {
+    double length = 0;
+    for (const ChainSegment& segment : chain.segments) length += segment.line.length;
+    for (const ChainContact& contact : chain.contacts) length += contact.start.length;
+    return length;
+}
+
+}  // namespace tautline

@@ -1,0 +1,42 @@
+#pragma once
+/** A chain is the path's fixed points and touched obstacles ("contacts") in order, with a straight segment between each
+and the next. All vectors in ground. */
+#include <vector>
+
+#include "tautline/paths/path_problem.h"
+#include "tautline/paths/path_solution.h"
+
+namespace tautline {
+
+/** A touched obstacle of a chain. */
+struct ChainContact {
+    int element = -1;
+    int segmentIn = -1;   ///< the segment that ends at P; the next one, segmentIn + 1, begins at Q
+    GeodesicStart start;  ///< in S
+    Geodesic geodesic;    ///< in S
+    DarbouxFrame P, Q;    ///< in ground
+};
+
+/** A straight segment of a chain; contact indices are -1 where it ends at a fixed point. */
+struct ChainSegment {
+    StraightSegment line;
+    int fromContact = -1, toContact = -1;
+};
+
+struct Chain {
+    std::vector<ChainContact> contacts;
+    std::vector<ChainSegment> segments;
+
+    /** Sets contacts and segments from the touched, active elements; starts come from `contacts`. Geodesics, frames and
+    lines are left for shootChain(). */
+    void build(const PathProblem& problem, const PathPose& pose, const std::vector<ObstacleContact>& elementContacts);
+};
+
+/** Shoots all geodesics of the chain (step 1 of thesis Sec. 4.6) and lays the straight segments.
+@return false if a geodesic did not come to its end or a number is not finite */
+bool shootChain(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options, Chain& chain);
+
+/** Length of segments and arcs [m]. */
+double calcLength(const Chain& chain);
+
+}  // namespace tautline

@@ -1,0 +1,114 @@
+#include "paths/cold_search.h"
+
+#include "tautline/paths/path_verification.h"
+
+namespace tautline {
+namespace {
+
+constexpr double kStringPush = 0.1;  ///< the first one of a string that goes beyond a conjugate point, in sizes
+constexpr int kMaxStringPushes = 6;  ///< each twice the one before
+constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the other side
+
+}  // namespace
+
+bool ColdSearch::findPathAlong(const PathProblem& problem, const PathPose& pose, const PathSolution& previous,
+                               PathSolution& path) {
+    return findPath(problem, pose, calcPreviousGuides(problem, pose, previous), PassageRule::AsBefore, path);
+}
+
+bool ColdSearch::findPathFromHints(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    StartGuides guides = calcHintGuides(problem, pose);
+    return findPath(problem, pose, guides, PassageRule::AsHinted, path) ||
+           findPathWithoutPoints(problem, pose, guides, path) || findOtherSides(problem, pose, guides, path);
+}
+
+/** Lets a string fall taut along the guides, ever finer, until the search leads on from it to a
+verified minimum. */
+bool ColdSearch::findPath(const PathProblem& problem, const PathPose& pose, const StartGuides& guides, PassageRule rule,
+                          PathSolution& path) {
+    struct Level {
+        double fineness, tolerance;
+        int maxSweeps;
+    };
+    constexpr Level kLevels[] = {{1.0, 2e-3, 400}, {0.5, 2e-4, 1500}, {0.25, 2e-5, 3000}};
+    constexpr Level kPatient = {0.5, 1e-6, 6000};  // for strings that slide off slowly
+    path.wasCold = true;
+    path.fault = {};
+    m_string.lay(problem, pose, guides);
+    const auto tighten = [&](const Level& level) {
+        return tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, rule, path);
+    };
+    for (const Level& level : kLevels) {
+        if (tighten(level)) return true;
+        double push = kStringPush;
+        for (int i = 0; i < kMaxStringPushes && pushOffConjugatePoint(problem, pose, push, path); ++i, push *= 2)
+            if (tighten(kPatient)) return true;
+    }
+    // A string in which nothing is wrong may still slide, slower than was asked for.
+    if (m_string.findFault(problem).kind == StringFault::Kind::None && tighten(kPatient)) return true;
+    path.fault = m_string.findFault(problem);
+    return false;
+}
+
+/** @return true if the path that the relaxed string suggests leads on to a verified minimum */
+bool ColdSearch::tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
+                               int maxSweeps, PassageRule rule, PathSolution& path) {
+    m_string.relax(problem, pose, fineness, tolerance, maxSweeps);
+    for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
+    m_string.extractContacts(problem, pose, path.contacts);
+    return m_search.findMinimum(problem, pose, rule, path);
+}
+
+/** An arc beyond its conjugate point is shortest among geodesics nearby, but not among curves: only the string, which
+can bend inside the arc, leads on from there. Laid symmetrically it stays, so that it is pushed sideways.
+@return false if the path is no such one */
+bool ColdSearch::pushOffConjugatePoint(const PathProblem& problem, const PathPose& pose, double push,
+                                       const PathSolution& path) {
+    if (!(path.pathError <= m_tolerance)) return false;
+    const PathVerification verification = verifyPath(problem, pose, path);
+    if (verification.condition != PathVerification::Condition::ConjugatePoint) return false;
+    const int e = verification.element;
+    m_string.push(e,
+                  push * problem.getElement(e).surface->getSize() * (pose.X_GE[e].R * path.contacts[e].geodesic.P.B));
+    return true;
+}
+
+/** Where points near the path lead to no minimum (they may be far from any), the sides that the straight lines between
+the others suggest may. @return false with `path` as it was */
+bool ColdSearch::findPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartGuides guides,
+                                       PathSolution& path) {
+    bool hasPoints = false;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!std::holds_alternative<PassNear>(problem.getElement(e).hint)) continue;
+        hasPoints = hasPoints || !guides[e].empty();
+        guides[e].clear();
+    }
+    if (!hasPoints) return false;
+    m_before = path;
+    if (findPath(problem, pose, guides, PassageRule::AsHinted, path)) return true;
+    goBack(m_before, path);
+    return false;
+}
+
+/** Where the side that the straight line or a point near the path suggests leads to no minimum (surfaces that overlap
+there, a contact that would have to be two), the other side of one obstacle may. @return false with `path` as it was */
+bool ColdSearch::findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides,
+                                PathSolution& path) {
+    int tries = 0;
+    m_before = path;
+    for (int e = 0; e < problem.getNumElements() && tries < kMaxOtherSides; ++e) {
+        const PathElement& element = problem.getElement(e);
+        if (element.isPoint() || !pose.hasElement(e) || !m_before.contacts[e].isTouched ||
+            !(std::holds_alternative<std::monostate>(element.hint) || std::holds_alternative<PassNear>(element.hint)))
+            continue;
+        const std::vector<Vec3> hinted = guides[e];
+        guides[e] = {calcOppositeGuide(problem, pose, m_before, e)};
+        if (guides[e].front().allFinite() && ++tries && findPath(problem, pose, guides, PassageRule::AsHinted, path))
+            return true;
+        guides[e] = hinted;
+    }
+    goBack(m_before, path);
+    return false;
+}
+
+}  // namespace tautline

@@ -1,0 +1,328 @@
+#include "paths/elastic_string.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tautline {
+namespace {
+
+constexpr double kSpacingPerRoom = 0.3;  ///< node spacing over (obstacle size + distance): 20 nodes per turn
+constexpr double kMovePerRoom = 0.3;     ///< farthest move of a node in a sweep: cannot pass a thin obstacle
+constexpr int kMaxNodes = 4000, kMaxNodesPerElement = 60;  ///< the larger of both is the limit
+constexpr int kLayingDepth = 6;                 ///< bisections of an edge that would cross a surface: 64 pieces
+constexpr double kLayingDepthTolerance = 0.02;  ///< crossings shallower than this (in sizes) are left to the sweeps
+constexpr std::size_t kNeighbours = 4;          ///< obstacles before and after a portion that its mesh allows for
+constexpr double kTouching = 0.01;              ///< height in sizes below which a node counts as resting on a surface
+constexpr int kSweepsPerMesh = 20;
+constexpr long kMaxHeightsPerElement = 500000;  ///< heights over surfaces that one laying may ask for: its time
+constexpr double kMaxRelaxation = 1.9;
+
+}  // namespace
+
+void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const StartGuides& guides) {
+    m_nodes.clear();
+    m_isFixed.clear();
+    m_holds.clear();
+    m_numHeights = 0;
+    std::size_t firstOpen = 0;          // holds whose strand has not met its end yet
+    int lastFixed = 0, lastGuided = 0;  // lastGuided: the first hold whose surface the next edge may cross
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!pose.hasElement(e)) continue;
+        const bool isPoint = problem.getElement(e).isPoint();
+        if (!isPoint) {
+            m_holds.emplace_back();
+            m_holds.back().element = e, m_holds.back().X_GS = pose.X_GE[e], m_holds.back().from = lastFixed;
+        }
+        const int current = static_cast<int>(m_holds.size()) - 1;
+        for (const Vec3& guide : guides[e]) {
+            if (!m_nodes.empty()) layEdge(problem, lastGuided, m_nodes.back(), guide, kLayingDepth);
+            addNode(guide, isPoint);
+            if (!isPoint) noteContact(m_holds[current], static_cast<int>(m_nodes.size()) - 1);
+            lastGuided = isPoint ? current + 1 : current;
+        }
+        if (!isPoint) continue;
+        lastFixed = static_cast<int>(m_nodes.size()) - 1;
+        for (; firstOpen < m_holds.size(); ++firstOpen) m_holds[firstOpen].to = lastFixed;
+    }
+    m_extent = 0;
+    for (std::size_t k = 0; k + 1 < m_nodes.size(); ++k) m_extent += (m_nodes[k + 1] - m_nodes[k]).norm();
+}
+
+/** Lays the string from A, the last node, towards B around the surfaces that this edge would cross: it is
+bent outwards where it is deepest, and so on for both halves. B itself is not added. */
+void ElasticString::layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth) {
+    int crossed = -1;
+    double deepest = -kLayingDepthTolerance;
+    Vec3 bend = Vec3::Zero(), N_S;
+    const double length = (B - A).norm();
+    if (depth == 0 || !(length > 0)) return;
+    for (int i = firstHold; i < static_cast<int>(m_holds.size()); ++i) {
+        const Surface& surface = *problem.getElement(m_holds[i].element).surface;
+        const Pose& X_GS = m_holds[i].X_GS;
+        const Vec3 A_S = X_GS.shiftBack(A), e_S = X_GS.R.transpose() * (B - A) / length;
+        const double s = surface.findLowestPoint(A_S, e_S, length);
+        const Vec3 D_S = A_S + s * e_S;
+        const double depthThere = surface.calcHeight(D_S, N_S) / surface.getSize();
+        // An end below the surface is no bend: that obstacle is switched off, or the guide lies in another.
+        if (!(depthThere < deepest) || s <= 0 || s >= length) continue;
+        deepest = depthThere, crossed = i;
+        bend = X_GS * surface.findSurfacePoint(D_S).p;
+    }
+    if (crossed < 0) return;
+    layEdge(problem, firstHold, A, bend, depth - 1);
+    addNode(bend, false);
+    noteContact(m_holds[crossed], static_cast<int>(m_nodes.size()) - 1);
+    layEdge(problem, firstHold, bend, B, depth - 1);
+}
+
+void ElasticString::addNode(const Vec3& x, bool isFixed) {
+    m_nodes.push_back(x);
+    m_isFixed.push_back(isFixed);
+}
+
+void ElasticString::noteContact(Hold& hold, int node) {
+    hold.first = hold.first < 0 ? node : std::min(hold.first, node);
+    hold.last = std::max(hold.last, node);
+}
+
+void ElasticString::relax(const PathProblem& problem, const PathPose&, double fineness, double tolerance,
+                          int maxSweeps) {
+    if (!(m_extent > 0)) return;
+    double relaxation = 1;
+    m_isAtRest = false;
+    const long maxHeights = kMaxHeightsPerElement * problem.getNumElements();
+    for (int i = 0; i < maxSweeps && m_numHeights < maxHeights; ++i) {
+        updatePortions(problem);
+        if (i % kSweepsPerMesh == 0) {
+            remesh(problem, fineness);
+            updatePortions(problem);
+        }
+        const double move = sweep(problem, relaxation, i % 2 == 0);
+        // Plain steps first, while the string falls into place; then over-relaxation for the long waves.
+        if (i > 2 * kSweepsPerMesh) relaxation = std::min(kMaxRelaxation, relaxation + 0.05);
+        m_isAtRest = i > kSweepsPerMesh && move < tolerance;
+        if (m_isAtRest) break;
+    }
+    updatePortions(problem);
+}
+
+/** Portions begin and end in path order: the first hold whose portion goes beyond a node. */
+std::size_t ElasticString::findFirstHold(int node) const {
+    const auto first = std::partition_point(m_holds.begin(), m_holds.end(),
+                                            [node](const Hold& hold) { return hold.portionEnd <= node; });
+    return static_cast<std::size_t>(first - m_holds.begin());
+}
+
+/** Room at a point after a node: least of (size + distance) over the obstacles that act there or may soon, when
+a neighbour lifts and their portions grow. */
+double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int node) const {
+    double room = m_extent;
+    Vec3 N_S;
+    const std::size_t first = findFirstHold(node);
+    int beyond = 0;
+    for (std::size_t i = first > kNeighbours ? first - kNeighbours : 0; i < m_holds.size(); ++i) {
+        const Hold& hold = m_holds[i];
+        if (hold.portionBegin > node && ++beyond > static_cast<int>(kNeighbours)) break;
+        if (node < hold.from || node > hold.to) continue;
+        const Surface& surface = *problem.getElement(hold.element).surface;
+        const double height = surface.calcHeight(hold.X_GS.shiftBack(x), N_S);
+        room = std::min(room, surface.getSize() + std::max(0.0, height));
+    }
+    return room;
+}
+
+/** New nodes along the polygon, closer where room is small; contacts keep their place on the string. */
+void ElasticString::remesh(const PathProblem& problem, double fineness) {
+    const int maxNodes = std::max(kMaxNodes, kMaxNodesPerElement * problem.getNumElements());
+    const double least = m_extent / maxNodes;
+    std::vector<Vec3> nodes;
+    std::vector<char> isFixed;
+    std::vector<int> newIndex(m_nodes.size());  // of the new node at or just after an old one
+    for (std::size_t k = 0; k < m_nodes.size(); ++k) {
+        newIndex[k] = static_cast<int>(nodes.size());
+        if (k + 1 == m_nodes.size() || m_isFixed[k] || nodes.empty()) {
+            nodes.push_back(m_nodes[k]);
+            isFixed.push_back(m_isFixed[k]);
+        }
+        if (k + 1 == m_nodes.size()) break;
+        const Vec3 edge = m_nodes[k + 1] - m_nodes[k];
+        // March along the edge; what is left of a step carries over to the next edge.
+        const double length = edge.norm();
+        double at = 0;
+        while (static_cast<int>(nodes.size()) < maxNodes) {
+            const double spacing =
+                std::max(least, fineness * kSpacingPerRoom * calcRoom(problem, nodes.back(), static_cast<int>(k)));
+            // Where the last node lies relative to this edge: step from it to the sphere of radius `spacing`.
+            const Vec3 toStart = m_nodes[k] - nodes.back();
+            const Vec3 direction = length > 0 ? Vec3(edge / length) : Vec3(Vec3::Zero());
+            const double b = toStart.dot(direction), c = toStart.squaredNorm() - spacing * spacing;
+            const double discriminant = b * b - c;
+            if (!(discriminant > 0) || !(length > 0)) break;
+            const double next = -b + std::sqrt(discriminant);
+            const double end = m_isFixed[k + 1] ? length - 0.5 * spacing : length;
+            if (!(next > at) || next >= end) break;
+            at = next;
+            nodes.push_back(m_nodes[k] + at * direction);
+            isFixed.push_back(0);
+        }
+    }
+    for (Hold& hold : m_holds) {
+        hold.from = newIndex[hold.from], hold.to = newIndex[hold.to];
+        if (!hold.touches()) continue;
+        const int last = static_cast<int>(nodes.size()) - 2;
+        hold.first = std::clamp(newIndex[hold.first], 1, std::max(1, last));
+        hold.last = std::clamp(newIndex[hold.last], hold.first, std::max(hold.first, last));
+    }
+    m_nodes.swap(nodes);
+    m_isFixed.swap(isFixed);
+    m_room.assign(m_nodes.size(), m_extent);
+    m_stiffness.resize(m_nodes.size());
+    for (std::size_t k = 0; k + 1 < m_nodes.size(); ++k)
+        m_stiffness[k] = 1 / std::max(least * 1e-3, (m_nodes[k + 1] - m_nodes[k]).norm());
+}
+
+/** Each obstacle acts from the last contact before it (in path order) to the first contact after it. */
+void ElasticString::updatePortions(const PathProblem& problem) {
+    const int n = static_cast<int>(m_holds.size());
+    Vec3 N_S;
+    int before = 0;
+    for (int i = 0; i < n; ++i) {
+        before = std::max(before, m_holds[i].from);
+        m_holds[i].portionBegin = before;
+        if (m_holds[i].touches()) before = std::max(before, m_holds[i].last);
+    }
+    int after = static_cast<int>(m_nodes.size()) - 1;
+    for (int i = n - 1; i >= 0; --i) {
+        Hold& hold = m_holds[i];
+        after = std::min(after, hold.to);
+        hold.portionEnd = after;
+        if (hold.touches()) after = std::min(after, hold.first);
+        const Surface& surface = *problem.getElement(hold.element).surface;
+        const auto isInside = [&](int node) {
+            return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) < -1e-10 * surface.getSize();
+        };
+        hold.isSwitchedOff = isInside(hold.from) || isInside(hold.to);
+    }
+}
+
+/** One projected sweep over all nodes. @return largest move relative to the room of the node */
+double ElasticString::sweep(const PathProblem& problem, double relaxation, bool isForward) {
+    for (Hold& hold : m_holds) hold.first = hold.last = -1;
+    double largest = 0;
+    const int n = static_cast<int>(m_nodes.size());
+    for (int step = 1; step + 1 < n; ++step) {
+        const int k = isForward ? step : n - 1 - step;
+        if (m_isFixed[k]) continue;
+        const Vec3 old = m_nodes[k];
+        const double left = m_stiffness[k - 1], right = m_stiffness[k];
+        Vec3 move = relaxation * ((left * m_nodes[k - 1] + right * m_nodes[k + 1]) / (left + right) - old);
+        const double limit = kMovePerRoom * m_room[k], length = move.norm();
+        if (length > limit) move *= limit / length;
+        m_nodes[k] = old + move;
+        double room = m_extent;
+        pushOut(problem, k, room);
+        m_room[k] = room;
+        largest = std::max(largest, (m_nodes[k] - old).norm() / room);
+    }
+    return largest;
+}
+
+/** Moves a node out of the obstacles that act on it and notes the contacts. */
+void ElasticString::pushOut(const PathProblem& problem, int node, double& room) {
+    for (std::size_t i = findFirstHold(node); i < m_holds.size() && m_holds[i].portionBegin < node; ++i) {
+        Hold& hold = m_holds[i];
+        if (hold.isSwitchedOff) continue;
+        const Surface& surface = *problem.getElement(hold.element).surface;
+        Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
+        const double height = surface.calcHeight(p_S, N_S), size = surface.getSize();
+        ++m_numHeights;
+        room = std::min(room, size + std::max(0.0, height));
+        if (height > 0) continue;
+        if (height > -0.02 * size)
+            m_nodes[node] = hold.X_GS * Vec3(p_S - height * N_S);
+        else
+            m_nodes[node] = hold.X_GS * surface.findSurfacePoint(p_S).p;
+        noteContact(hold, node);
+    }
+}
+
+/** Height of a node above a surface, in its sizes. */
+double ElasticString::calcHeight(const PathProblem& problem, const Hold& hold, int node) const {
+    const Surface& surface = *problem.getElement(hold.element).surface;
+    Vec3 N_S;
+    return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) / surface.getSize();
+}
+
+/** True if the string is clear of the surface somewhere between its first and its last contact. */
+bool ElasticString::leavesAndReturns(const PathProblem& problem, const Hold& hold) const {
+    for (int k = hold.first + 1; hold.touches() && k < hold.last; ++k)
+        if (calcHeight(problem, hold, k) > kTouching) return true;
+    return false;
+}
+
+bool ElasticString::restsOn(const PathProblem& problem, const Hold& hold, int node) const {
+    return !hold.isSwitchedOff && hold.from < node && node < hold.to && calcHeight(problem, hold, node) < kTouching;
+}
+
+StringFault ElasticString::findFault(const PathProblem& problem) const {
+    const Hold* before = nullptr;
+    for (const Hold& hold : m_holds) {
+        if (!hold.touches()) continue;
+        if (before && hold.first < before->last) return {StringFault::Kind::OutOfOrder, before->element, hold.element};
+        before = &hold;
+    }
+    for (const Hold& hold : m_holds) {
+        if (!hold.touches()) continue;
+        for (const Hold& other : m_holds)
+            for (int k = hold.first; k <= hold.last && &other != &hold; ++k)
+                if (!m_isFixed[k] && restsOn(problem, other, k))
+                    return {StringFault::Kind::Groove, hold.element, other.element};
+    }
+    for (const Hold& hold : m_holds)
+        if (leavesAndReturns(problem, hold)) return {StringFault::Kind::TwoContacts, hold.element, -1};
+    for (const Hold& hold : m_holds)
+        if (!m_isAtRest && hold.touches()) return {StringFault::Kind::Sliding, hold.element, -1};
+    if (!m_isAtRest) return {StringFault::Kind::Sliding, -1, -1};
+    return {};
+}
+
+void ElasticString::push(int element, const Vec3& by_G) {
+    for (const Hold& hold : m_holds) {
+        if (hold.element != element || !hold.touches()) continue;
+        for (int k = hold.first; k <= hold.last; ++k)
+            if (!m_isFixed[k]) m_nodes[k] += by_G;
+    }
+}
+
+void ElasticString::extractContacts(const PathProblem& problem, const PathPose& pose,
+                                    std::vector<ObstacleContact>& contacts) const {
+    contacts.resize(problem.getNumElements());
+    for (ObstacleContact& contact : contacts) contact.isTouched = contact.isSwitchedOff = false;
+    for (const Hold& hold : m_holds) {
+        ObstacleContact& contact = contacts[hold.element];
+        contact.isSwitchedOff = hold.isSwitchedOff;
+        contact.isTouched = hold.touches() && !hold.isSwitchedOff;
+        if (!contact.isTouched) continue;
+        const Surface& surface = *problem.getElement(hold.element).surface;
+        const Pose& X_GS = pose.X_GE[hold.element];
+        const Vec3 before = m_nodes[hold.first] - m_nodes[hold.first - 1];
+        const Vec3 after = m_nodes[hold.last + 1] - m_nodes[hold.last];
+        // The string leaves the surface within the edges beside its contact nodes: half of each belongs to
+        // the turning that the first and last node see.
+        const Vec3 along = hold.last > hold.first ? Vec3(m_nodes[hold.first + 1] - m_nodes[hold.first]) : after;
+        contact.start.point = surface.findSurfacePoint(X_GS.shiftBack(m_nodes[hold.first]));
+        contact.start.tangent = X_GS.R.transpose() * (before.normalized() + along.normalized());
+        const DarbouxFrame frame = surface.calcFrame(contact.start.point, contact.start.tangent);
+        contact.start.tangent = frame.t;
+        double length = 0;
+        for (int k = hold.first; k < hold.last; ++k) length += (m_nodes[k + 1] - m_nodes[k]).norm();
+        if (hold.last == hold.first && std::abs(frame.kappaN) > 0) {
+            const double turn = std::acos(std::clamp(before.normalized().dot(after.normalized()), -1.0, 1.0));
+            length = std::min(turn / std::abs(frame.kappaN), 0.5 * (before.norm() + after.norm()));
+            contact.start.point = surface.calcDisplacedPoint(contact.start.point, -0.5 * length * frame.t);
+        }
+        contact.start.length = length;
+    }
+}
+
+}  // namespace tautline

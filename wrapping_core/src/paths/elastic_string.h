@@ -1,0 +1,69 @@
+#pragma once
+/** A coarse elastic string laid along a path and relaxed with one-sided contact: finds the contact set and
+the basin of the minimum where Newton-like steps from a poor guess do not. Milliseconds, not microseconds. */
+#include <vector>
+
+#include "paths/start_guides.h"
+#include "tautline/paths/path_problem.h"
+#include "tautline/paths/path_solution.h"
+
+namespace tautline {
+
+class ElasticString {
+public:
+    /** Lays the string from origin to insertion along its guides, and around the surfaces that lie between. */
+    void lay(const PathProblem& problem, const PathPose& pose, const StartGuides& guides);
+
+    /** Relaxes by projected successive over-relaxation until nodes move less than `tolerance` of their
+    spacing per sweep, or `maxSweeps`, or until
+    this laying has cost what it may. @param fineness   spacing of nodes relative to the default */
+    void relax(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance, int maxSweeps);
+
+    /** Moves the nodes that touch an element, to free a string from a saddle. @param by_G   in ground [m] */
+    void push(int element, const Vec3& by_G);
+
+    /** Contact set, geodesic starts (touched) and switched-off obstacles as the string shows them. */
+    void extractContacts(const PathProblem& problem, const PathPose& pose,
+                         std::vector<ObstacleContact>& contacts) const;
+
+    /** Why the relaxed string is no smooth path with one arc on each surface, if it is not. */
+    StringFault findFault(const PathProblem& problem) const;
+
+    const std::vector<Vec3>& getNodes() const { return m_nodes; }
+
+private:
+    /** An obstacle's hold on the string; node indices, -1 where it does not touch. */
+    struct Hold {
+        int element = -1;
+        Pose X_GS;
+        int first = -1, last = -1;             ///< contact nodes of this sweep
+        int from = -1, to = -1;                ///< fixed nodes that bound its strand
+        int portionBegin = 0, portionEnd = 0;  ///< nodes on which it may act, inclusive
+        bool isSwitchedOff = false;
+        bool touches() const { return first >= 0; }
+    };
+
+    void layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth);
+    void addNode(const Vec3& x, bool isFixed);
+    static void noteContact(Hold& hold, int node);
+    void remesh(const PathProblem& problem, double fineness);
+    void updatePortions(const PathProblem& problem);
+    double sweep(const PathProblem& problem, double relaxation, bool isForward);
+    std::size_t findFirstHold(int node) const;
+    double calcRoom(const PathProblem& problem, const Vec3& x, int node) const;
+    void pushOut(const PathProblem& problem, int node, double& room);
+    double calcHeight(const PathProblem& problem, const Hold& hold, int node) const;
+    bool leavesAndReturns(const PathProblem& problem, const Hold& hold) const;
+    bool restsOn(const PathProblem& problem, const Hold& hold, int node) const;
+
+    std::vector<Vec3> m_nodes;
+    std::vector<char> m_isFixed;
+    std::vector<double> m_stiffness;  ///< of edge k between nodes k and k + 1
+    std::vector<double> m_room;       ///< per node: size of the nearest obstacle plus distance to it [m]
+    std::vector<Hold> m_holds;
+    double m_extent = 0;     ///< length of the string when laid [m]
+    long m_numHeights = 0;   ///< asked for since it was laid
+    bool m_isAtRest = true;  ///< the last relaxation came to its tolerance
+};
+
+}  // namespace tautline

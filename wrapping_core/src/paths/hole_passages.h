@@ -1,0 +1,29 @@
+#pragma once
+/** How often a path goes through the holes of its obstacles: whether that is right, and what is kept of it. */
+#include "tautline/paths/path_problem.h"
+#include "tautline/paths/path_solution.h"
+
+namespace tautline {
+
+/** True if the z axis of S goes through a hole of the surface. */
+bool hasHole(const Surface& surface);
+
+/** Counts the passages of a solved path. @param in, out   the segments before and after the contact; the same one
+while the obstacle is lifted */
+HolePassage calcHolePassage(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
+                            const StraightSegment& in, const StraightSegment& out);
+
+/** True if a string cannot have come from `before` to `after` without the ring going through it: the two, closed
+by the straight ways of their ends, are linked with the ring. False where the portions are not comparable. */
+bool hasLeftHole(const Surface& surface, const HolePassage& before, const HolePassage& after);
+
+/** What says how often: the path that this one was continued from, or the hints of the problem. */
+enum class PassageRule { AsBefore, AsHinted };
+
+bool hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule, const PathSolution& path);
+
+/** Notes the passages through holes, and which were lost since the path that this one was continued from. Those of a
+path that did not converge, or has left the hole, are no course to keep: the ones before them stay. */
+void updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
+
+}  // namespace tautline

@@ -1,0 +1,184 @@
+#include "tautline/paths/path_explanation.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace tautline {
+
+using Condition = PathVerification::Condition;
+
+namespace {
+
+std::string quoteName(const PathProblem& problem, int element) {
+    return "'" + problem.getElement(element).name + "'";
+}
+
+}  // namespace
+
+std::string describe(const PathVerification& verification, const PathProblem& problem) {
+    if (verification.isMinimum()) return "a local minimum";
+    const std::string name = quoteName(problem, verification.element);
+    switch (verification.condition) {
+        case Condition::ReversedTangent:
+            return "the path turns back at " + name;
+        case Condition::NegativeLength:
+            return "the arc on " + name + " has negative length";
+        case Condition::PullsOutward:
+            return "the arc on " + name + " would lift inside";
+        case Condition::ConjugatePoint:
+            return "the arc on " + name + " goes beyond its conjugate point";
+        case Condition::Penetration:
+            return "a straight segment passes below the surface of " + name;
+        case Condition::OutsideDomain:
+            return "the arc on " + name + " leaves the domain of its surface";
+        case Condition::Unstable:
+            return "the path can be shortened sideways at " + name;
+        case Condition::None:
+            break;
+    }
+    return "a local minimum";
+}
+
+namespace {
+
+/** The fixed point that is inside an obstacle, by name. */
+std::string describeEndInside(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    Vec3 N_S;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (problem.getElement(e).isPoint() || !pose.hasElement(e) || !path.contacts[e].isSwitchedOff) continue;
+        const Surface& surface = *problem.getElement(e).surface;
+        int before = e, after = e;
+        while (!problem.getElement(before).isPoint() || !pose.hasElement(before)) --before;
+        while (!problem.getElement(after).isPoint() || !pose.hasElement(after)) ++after;
+        const auto calcHeight = [&](int point) {
+            return surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
+        };
+        const bool isBefore = calcHeight(before) <= calcHeight(after);
+        return "the point " + quoteName(problem, isBefore ? before : after) + " is inside " + quoteName(problem, e) +
+               ", which is switched off";
+    }
+    return "a point is inside an obstacle";
+}
+
+/** The obstacle at an end of whose arc the surface hardly curves away from the path, or -1: there the string lifts,
+and a single contact does not follow it. */
+int findVanishingPressure(const PathProblem& problem, const PathSolution& path) {
+    constexpr double kVanishing = 0.05;  // of 1/size
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const ObstacleContact& contact = path.contacts[e];
+        if (problem.getElement(e).isPoint() || !contact.isTouched) continue;
+        const double kappaN = std::max(contact.geodesic.P.kappaN, contact.geodesic.Q.kappaN);
+        if (kappaN * problem.getElement(e).surface->getSize() > -kVanishing) return e;
+    }
+    return -1;
+}
+
+/** The segment that is so short that the rounding of its ends turns it by as much as the path error, or null. */
+const StraightSegment* findRoundedSegment(const PathSolution& path) {
+    constexpr double kRounding = 1e-15;  // of coordinates that have gone through two poses
+    for (const StraightSegment& line : path.segments)
+        if (line.length * path.pathError <= kRounding * (line.A.norm() + line.B.norm())) return &line;
+    return nullptr;
+}
+
+/** Two obstacles of which the arc on one passes below the surface of the other: they overlap where the path passes. */
+StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    constexpr int kSamples = 9;         // of an arc
+    constexpr double kOverlap = -1e-6;  // in sizes: deeper than two solved contacts that only touch
+    std::vector<Vec3> arc_S;
+    const auto isBelow = [&](int e, int other) {
+        const Surface& surface = *problem.getElement(other).surface;
+        Vec3 N_S;
+        return std::any_of(arc_S.begin(), arc_S.end(), [&](const Vec3& p_S) {
+            const Vec3 p_G = pose.X_GE[e] * p_S;
+            return surface.calcHeight(pose.X_GE[other].shiftBack(p_G), N_S) < kOverlap * surface.getSize();
+        });
+    };
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (problem.getElement(e).isPoint() || !path.contacts[e].isTouched) continue;
+        sampleGeodesic(*problem.getElement(e).surface, path.contacts[e].start, GeodesicOptions{1e-6, 200}, kSamples,
+                       arc_S);
+        for (int other = 0; other < problem.getNumElements(); ++other)
+            if (other != e && !problem.getElement(other).isPoint() && path.contacts[other].isTouched &&
+                isBelow(e, other))
+                return {StringFault::Kind::Groove, e, other};
+    }
+    return {};
+}
+
+std::string describe(const StringFault& fault, const PathProblem& problem) {
+    if (fault.kind == StringFault::Kind::Groove)
+        return "the string lies in the groove between " + quoteName(problem, fault.element) + " and " +
+               quoteName(problem, fault.other) + ", where no smooth path is";
+    if (fault.kind == StringFault::Kind::Sliding && fault.element < 0)
+        return "the string still slides, far from where it would come to rest";
+    if (fault.kind == StringFault::Kind::Sliding)
+        return "the string still slides over " + quoteName(problem, fault.element) + ", next to a neutral course";
+    if (fault.kind == StringFault::Kind::OutOfOrder)
+        return "the string would meet " + quoteName(problem, fault.other) + " before " +
+               quoteName(problem, fault.element) + ", against the order of the path";
+    return "the string touches " + quoteName(problem, fault.element) + " in two places";
+}
+
+/** Why the string that was laid anew came to no better path, ": " before it; empty if that is not known. */
+std::string describeCause(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    StringFault fault = path.fault;
+    const bool isVague = fault.kind == StringFault::Kind::Sliding && fault.element < 0;
+    if (fault.kind == StringFault::Kind::None || isVague) {
+        const StringFault overlap = findOverlap(problem, pose, path);
+        if (overlap.kind != StringFault::Kind::None) fault = overlap;
+    }
+    if (fault.kind != StringFault::Kind::None) return ": " + describe(fault, problem);
+    const int vanishing = path.status == PathStatus::NotConverged ? findVanishingPressure(problem, path) : -1;
+    if (vanishing < 0) return "";
+    return ": the pressure vanishes at an end of the arc on " + quoteName(problem, vanishing);
+}
+
+std::string explainNotConverged(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    if (!pose.isFinite()) return "a pose is not finite";
+    std::ostringstream text;
+    text << "the path error stays at " << path.pathError;
+    if (const StraightSegment* line = findRoundedSegment(path))
+        text << ": a segment of " << line->length << " m is too short for the rounding of its ends";
+    else
+        text << describeCause(problem, pose, path);
+    return text.str();
+}
+
+/** Of a path whose error vanishes: the condition that does not hold. */
+std::string explainNotMinimum(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                              double shortestArc) {
+    for (int e = 0; e < problem.getNumElements(); ++e)
+        if (path.contacts[e].hasLeftHole) return "the path has left the hole of " + quoteName(problem, e);
+    const PathVerification verification = verifyPath(problem, pose, path, shortestArc);
+    if (verification.isMinimum()) return describe(verification, problem);
+    const Vec3& place = verification.place_G;
+    std::ostringstream text;
+    text << describe(verification, problem) << " at (" << place.x() << ", " << place.y() << ", " << place.z() << ")";
+    // What passes below the very surface that it has left would touch it again.
+    if (verification.condition == Condition::Penetration && path.contacts[verification.element].isTouched)
+        text << ": " << describe({StringFault::Kind::TwoContacts, verification.element, -1}, problem);
+    else
+        text << describeCause(problem, pose, path);
+    return text.str();
+}
+
+}  // namespace
+
+std::string explainStatus(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                          double shortestArc) {
+    switch (path.status) {
+        case PathStatus::Solved:
+            return "a local minimum";
+        case PathStatus::EndInside:
+            return describeEndInside(problem, pose, path);
+        case PathStatus::NotConverged:
+            return explainNotConverged(problem, pose, path);
+        case PathStatus::NotMinimum:
+        case PathStatus::LeftDomain:
+            break;
+    }
+    return explainNotMinimum(problem, pose, path, shortestArc);
+}
+
+}  // namespace tautline

@@ -1,0 +1,21 @@
+#include "tautline/paths/path_solution.h"
+
+namespace tautline {
+
+const char* getName(PathStatus status) {
+    switch (status) {
+        case PathStatus::Solved:
+            return "solved";
+        case PathStatus::NotMinimum:
+            return "not_minimum";
+        case PathStatus::LeftDomain:
+            return "left_domain";
+        case PathStatus::EndInside:
+            return "end_inside";
+        case PathStatus::NotConverged:
+            return "not_converged";
+    }
+    return "unknown";
+}
+
+}  // namespace tautline

@@ -1,0 +1,144 @@
+#include "tautline/paths/path_verification.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tautline/geodesics/geodesic_events.h"
+#include "tautline/paths/contact_switch.h"
+
+namespace tautline {
+namespace {
+
+using Condition = PathVerification::Condition;
+
+constexpr GeodesicOptions kWalking{1e-6, 200};  ///< for looking along an arc whose ends are known exactly
+constexpr double kRounding = 1e-9;  ///< of curvatures and heights in sizes: what differences of solved places leave
+constexpr double kNeutral = 1e-9;   ///< relative second variation below which a path is neither stable nor unstable
+
+/** True if the arc presses on its surface all along: kappa_n <= 0. */
+bool pressesEverywhere(const Surface& surface, const ObstacleContact& contact) {
+    const double tolerance = kRounding / surface.getSize();
+    if (contact.geodesic.P.kappaN > tolerance || contact.geodesic.Q.kappaN > tolerance) return false;
+    if (surface.isConvex() || !(contact.start.length > 0)) return true;
+    return !(calcLargestNormalCurvature(surface, contact.start, contact.geodesic) > tolerance);
+}
+
+/** True if a straight segment that leaves the surface at one end dips below it elsewhere. */
+bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSegment& line) {
+    if (surface.isConvex() || !(line.length > 0)) return false;
+    const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.rotateBack(line.e);
+    // Near the tangent end the height is rounding of a square: judge beyond a margin only.
+    Vec3 N;
+    const double s = surface.findLowestPoint(A_S, e_S, line.length);
+    return surface.calcHeight(A_S + s * e_S, N) < -kRounding * surface.getSize();
+}
+
+/** The ends tell it for most arcs; along the arc it is asked only of surfaces that have an edge. */
+bool isInDomain(const Surface& surface, const ObstacleContact& contact) {
+    const double margin =
+        std::min(surface.calcDomainMargin(contact.start.point), surface.calcDomainMargin(contact.geodesic.endPoint));
+    if (!(margin >= 0) || !surface.isInDomain(contact.start.point) || !surface.isInDomain(contact.geodesic.endPoint))
+        return false;
+    return margin == kInfinity || !findDomainExit(surface, contact.start, kWalking);
+}
+
+Condition verifyContact(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
+                        const StraightSegment& in, const StraightSegment& out, double shortestArc) {
+    const Geodesic& arc = contact.geodesic;
+    if (!isInDomain(surface, contact)) return Condition::OutsideDomain;
+    if (!(in.e.dot(X_GS.rotate(arc.P.t)) > 0) || !(out.e.dot(X_GS.rotate(arc.Q.t)) > 0))
+        return Condition::ReversedTangent;
+    if (contact.start.length < shortestArc * surface.getSize()) return Condition::NegativeLength;
+    if (arc.hasConjugatePoint && contact.start.length > 0) return Condition::ConjugatePoint;
+    if (!pressesEverywhere(surface, contact)) return Condition::PullsOutward;
+    if (meetsOwnSurface(surface, X_GS, in) || meetsOwnSurface(surface, X_GS, out)) return Condition::Penetration;
+    return Condition::None;
+}
+
+/** Second variation of the length over sideways displacements b of the contact points along their binormals:
+
+    sum over lines of (b_Q^2 + b_P^2 - 2 b_Q b_P B_Q.B_P)/l  +  sum over arcs of the index form of the Jacobi fields,
+
+a symmetric tridiagonal form in (b_P, b_Q) of all contacts in order, positive definite at a strict minimum. Its
+pivots, in terms of the displacement y and slope y' of the sideways field that stays taut from the fixed point
+behind: on an arc y_Q = a y_P + r y_P', y_Q' = a' y_P + r' y_P'; on a line slopes sigma = y'/y obey
+sigma_P = 1/l - (B_Q.B_P/l)^2/(sigma_Q + 1/l). @return the first contact at which a pivot is not positive, or -1 */
+int findUnstableContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    double sigmaQ = 0;  // slope at the end of the last arc
+    Vec3 BQ = Vec3::Zero();
+    for (std::size_t j = 0; j + 1 < path.segments.size(); ++j) {
+        const StraightSegment &in = path.segments[j], &out = path.segments[j + 1];
+        const int e = in.toElement;
+        if (problem.getElement(e).isPoint()) continue;
+        const Geodesic& arc = path.contacts[e].geodesic;
+        const Pose& X_GS = pose.X_GE[e];
+        // From a fixed point y : y' = l : 1; from an arc, the pivot.
+        double y = in.length, slope = 1;
+        if (!problem.getElement(in.fromElement).isPoint()) {
+            const double twist = BQ.dot(X_GS.rotate(arc.P.B));
+            y = 1, slope = 1 / in.length - twist * twist / (in.length * in.length * (sigmaQ + 1 / in.length));
+        }
+        const double yQ = arc.a * y + arc.r * slope, slopeQ = arc.aDot * y + arc.rDot * slope;
+        const double bend = slopeQ * out.length;
+        // A path over a sphere between opposite points can turn freely: neutral, and a minimum like its neighbours.
+        const bool isLast = problem.getElement(out.toElement).isPoint();
+        const double margin = isLast ? -kNeutral * (std::abs(bend) + std::abs(yQ)) : 0;
+        if (!(yQ > 0) || !(bend + yQ > margin)) return e;
+        sigmaQ = slopeQ / yQ;
+        BQ = X_GS.rotate(arc.Q.B);
+    }
+    return -1;
+}
+
+/** Where on its arc a touched obstacle breaks a condition, in S. */
+Vec3 findPlaceOnArc(const Surface& surface, const ObstacleContact& contact, Condition condition, bool isAtEnd) {
+    const auto orStart = [&](const std::optional<GeodesicPlace>& place) {
+        return place ? place->point.p : contact.geodesic.P.x;
+    };
+    if (condition == Condition::OutsideDomain) return orStart(findDomainExit(surface, contact.start, kWalking));
+    if (condition == Condition::ConjugatePoint) return orStart(findConjugatePoint(surface, contact.start, kWalking));
+    if (condition == Condition::PullsOutward) {
+        const std::vector<GeodesicPlace> changes = findPressureChanges(surface, contact.start, kWalking);
+        if (!changes.empty()) return changes.front().point.p;
+    }
+    return isAtEnd ? contact.geodesic.Q.x : contact.geodesic.P.x;
+}
+
+/** Where a touched obstacle breaks a condition, in ground. */
+Vec3 findPlace(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact, Condition condition,
+               const StraightSegment& in, const StraightSegment& out) {
+    if (condition == Condition::Penetration) {
+        const StraightSegment& line = meetsOwnSurface(surface, X_GS, in) ? in : out;
+        return line.A + surface.findLowestPoint(X_GS.shiftBack(line.A), X_GS.rotateBack(line.e), line.length) * line.e;
+    }
+    const bool isAtEnd = condition == Condition::ReversedTangent && in.e.dot(X_GS.rotate(contact.geodesic.P.t)) > 0;
+    return X_GS * findPlaceOnArc(surface, contact, condition, isAtEnd);
+}
+
+}  // namespace
+
+PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                            double shortestArc) {
+    int segmentIn = 0;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const PathElement& element = problem.getElement(e);
+        if (element.isPoint() || !pose.hasElement(e)) continue;
+        const ObstacleContact& contact = path.contacts[e];
+        if (contact.isTouched) {
+            while (path.segments[segmentIn].toElement != e) ++segmentIn;
+            const StraightSegment &in = path.segments[segmentIn], &out = path.segments[segmentIn + 1];
+            const Condition condition = verifyContact(*element.surface, pose.X_GE[e], contact, in, out, shortestArc);
+            if (condition != Condition::None)
+                return {condition, e, findPlace(*element.surface, pose.X_GE[e], contact, condition, in, out)};
+        } else if (!contact.isSwitchedOff &&
+                   !(contact.clearance.distance * contact.clearance.scale >= kContactTolerance)) {
+            return {Condition::Penetration, e, pose.X_GE[e] * contact.clearance.C.p};
+        }
+    }
+    const int unstable = findUnstableContact(problem, pose, path);
+    if (unstable >= 0)
+        return {Condition::Unstable, unstable, pose.X_GE[unstable] * path.contacts[unstable].geodesic.P.x};
+    return {};
+}
+
+}  // namespace tautline

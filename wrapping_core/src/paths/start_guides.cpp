@@ -1,0 +1,165 @@
+#include "paths/start_guides.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "paths/hole_passages.h"
+
+namespace tautline {
+namespace {
+
+constexpr int kArcGuides = 6;      ///< points taken from each arc of a previous path
+constexpr int kGuidesPerTurn = 8;  ///< of a winding
+constexpr double kFar = 1e3;       ///< in sizes of the surface: from there the way down ends on the outside
+constexpr double kThrough = 3;     ///< in sizes: from the surface inwards, beyond the middle
+constexpr int kHoleSteps = 12;     ///< towards the hole's centre
+
+/** Where the straight line of the string comes from and goes to, in S. */
+struct Chord {
+    Vec3 A_S, B_S;
+};
+
+double calcAzimuth(const Vec3& p_S) {
+    return std::atan2(p_S.y(), p_S.x());
+}
+
+Vec3 makeCylindrical(double radius, double azimuth, double z) {
+    return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
+}
+
+/** Where the line passes the hole, moved towards the axis until it lies clear of the surface. */
+Vec3 findHolePoint(const Surface& surface, const Chord& chord) {
+    const Vec3 step = chord.B_S - chord.A_S;
+    Vec3 point = chord.A_S + chord.A_S.z() / (chord.A_S.z() - chord.B_S.z()) * step, N;
+    point.z() = 0;
+    for (int i = 0; i < kHoleSteps && surface.calcHeight(point, N) < 0; ++i) point *= 0.8;
+    return point;
+}
+
+void guide(const Surface& surface, std::monostate, const Chord& chord, std::vector<Vec3>& guides_S) {
+    if (surface.countHoleCrossings(chord.A_S, chord.B_S) != 0) guides_S.push_back(findHolePoint(surface, chord));
+}
+
+void guide(const Surface& surface, const PassNear& hint, const Chord&, std::vector<Vec3>& guides_S) {
+    guides_S.push_back(surface.findSurfacePoint(hint.point_S).p);
+}
+
+/** Nothing where the line is clear on the side that is asked for; else over the top of that side. */
+void guide(const Surface& surface, const PassOnSide& hint, const Chord& chord, std::vector<Vec3>& guides_S) {
+    const Vec3 side = hint.direction_S.normalized(), step = chord.B_S - chord.A_S;
+    const double length = step.norm();
+    const Vec3 e = length > 0 ? Vec3(step / length) : Vec3(Vec3::UnitX());
+    const Vec3 D = chord.A_S + surface.findLowestPoint(chord.A_S, e, length) * e;
+    Vec3 N;
+    if (surface.calcHeight(D, N) > 0 && side.dot(D) >= 0) return;
+    guides_S.push_back(surface.findSurfacePoint(D + (kFar * surface.getSize() - side.dot(D)) * side).p);
+}
+
+void guide(const Surface& surface, const WindAround& hint, const Chord& chord, std::vector<Vec3>& guides_S) {
+    const double from = calcAzimuth(chord.A_S), direct = calcAzimuth(chord.B_S) - from;
+    const double turn = direct + 2 * kPi * std::round(hint.turns - direct / (2 * kPi));
+    const int count = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / (2 * kPi) * kGuidesPerTurn)));
+    for (int i = 0; i < count; ++i) {
+        const double fraction = (i + 0.5) / count;
+        const double z = chord.A_S.z() + fraction * (chord.B_S.z() - chord.A_S.z());
+        const Vec3 outside = makeCylindrical(kFar * surface.getSize(), from + fraction * turn, z);
+        guides_S.push_back(surface.findSurfacePoint(outside).p);
+    }
+}
+
+/** Points of a ring's tube in the half plane of one azimuth. */
+struct TubePoints {
+    Vec3 inner, outer, top, bottom;
+
+    TubePoints(const Surface& surface, double azimuth) {
+        const double size = surface.getSize(), far = kFar * size;
+        inner = surface.findSurfacePoint(makeCylindrical(1e-3 * size, azimuth, 0)).p;
+        outer = surface.findSurfacePoint(makeCylindrical(far, azimuth, 0)).p;
+        const Vec3 middle = 0.5 * (inner + outer);
+        top = surface.findSurfacePoint(middle + far * Vec3::UnitZ()).p;
+        bottom = surface.findSurfacePoint(middle - far * Vec3::UnitZ()).p;
+    }
+};
+
+/** Through the hole each time, around the tube between two passages, and around the outside where an end is on the
+wrong side of the ring. */
+void guide(const Surface& surface, const ThreadHole& hint, const Chord& chord, std::vector<Vec3>& guides_S) {
+    const bool isUpward = hint.passages >= 0;
+    const TubePoints tube(surface, calcAzimuth(chord.A_S));
+    if (hint.passages == 0) {
+        if (surface.countHoleCrossings(chord.A_S, chord.B_S) != 0) guides_S.push_back(tube.outer);
+        return;
+    }
+    if ((chord.A_S.z() > 0) == isUpward) guides_S.push_back(tube.outer);
+    guides_S.push_back(std::abs(hint.passages) == 1 ? Vec3(Vec3::Zero()) : tube.inner);
+    for (int i = 1; i < std::abs(hint.passages); ++i) {
+        const Vec3 &leave = isUpward ? tube.top : tube.bottom, &enter = isUpward ? tube.bottom : tube.top;
+        guides_S.insert(guides_S.end(), {leave, tube.outer, enter, tube.inner});
+    }
+    if ((chord.B_S.z() < 0) == isUpward)
+        guides_S.push_back(
+            surface.findSurfacePoint(makeCylindrical(kFar * surface.getSize(), calcAzimuth(chord.B_S), 0)).p);
+}
+
+/** The next point that the string is sure to pass: a fixed point or a hinted one. */
+Vec3 findNextKnown(const PathProblem& problem, const PathPose& pose, int element) {
+    for (int e = element + 1; e < problem.getNumElements(); ++e) {
+        if (!pose.hasElement(e)) continue;
+        const PathElement& next = problem.getElement(e);
+        if (next.isPoint()) return pose.X_GE[e].p;
+        if (const auto* near = std::get_if<PassNear>(&next.hint)) return pose.X_GE[e] * near->point_S;
+    }
+    return pose.X_GE.back().p;
+}
+
+}  // namespace
+
+StartGuides calcHintGuides(const PathProblem& problem, const PathPose& pose) {
+    StartGuides guides(problem.getNumElements());
+    Vec3 last_G = Vec3::Zero();
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!pose.hasElement(e)) continue;
+        const PathElement& element = problem.getElement(e);
+        const Pose& X_GE = pose.X_GE[e];
+        if (element.isPoint()) {
+            guides[e] = {X_GE.p};
+        } else {
+            const Chord chord{X_GE.shiftBack(last_G), X_GE.shiftBack(findNextKnown(problem, pose, e))};
+            std::visit([&](const auto& hint) { guide(*element.surface, hint, chord, guides[e]); }, element.hint);
+            for (Vec3& p : guides[e]) p = X_GE * p;
+        }
+        if (!guides[e].empty()) last_G = guides[e].back();
+    }
+    return guides;
+}
+
+StartGuides calcPreviousGuides(const PathProblem& problem, const PathPose& pose, const PathSolution& previous) {
+    StartGuides guides(problem.getNumElements());
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!pose.hasElement(e)) continue;
+        const PathElement& element = problem.getElement(e);
+        const ObstacleContact& contact = previous.contacts[e];
+        std::vector<Vec3>& points = guides[e];
+        if (element.isPoint())
+            points = {Vec3::Zero()};
+        else if (contact.isTouched && contact.start.length > 0)
+            sampleGeodesic(*element.surface, contact.start, GeodesicOptions{1e-4, 200}, kArcGuides, points);
+        else if (contact.isTouched)
+            points = {contact.start.point.p};
+        else if (contact.passage.count != 0)
+            points = {contact.passage.through_S};
+        for (Vec3& p : points) p = pose.X_GE[e] * p;
+        points.erase(std::remove_if(points.begin(), points.end(), [](const Vec3& p) { return !p.allFinite(); }),
+                     points.end());
+    }
+    return guides;
+}
+
+Vec3 calcOppositeGuide(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int element) {
+    const Surface& surface = *problem.getElement(element).surface;
+    const Geodesic& arc = path.contacts[element].geodesic;
+    const Vec3 middle = 0.5 * (arc.P.x + arc.Q.x), N = (arc.P.N + arc.Q.N).normalized();
+    return pose.X_GE[element] * surface.findSurfacePoint(middle - kThrough * surface.getSize() * N).p;
+}
+
+}  // namespace tautline

@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "tautline/paths/path_problem.h"
+#include "tautline/paths/path_solution.h"
+
+namespace tautline {
+
+/** Points in ground through which a string is laid before it falls taut: one list for each element of the problem,
+in the order of the path; empty where nothing is known. */
+using StartGuides = std::vector<std::vector<Vec3>>;
+
+/** Guides that follow the hints of the problem. */
+StartGuides calcHintGuides(const PathProblem& problem, const PathPose& pose);
+
+/** Guides along a previous path: its arcs, and where it went through the holes of obstacles that it did not touch. */
+StartGuides calcPreviousGuides(const PathProblem& problem, const PathPose& pose, const PathSolution& previous);
+
+/** The guide that takes a path round the other side of an obstacle that it touches. */
+Vec3 calcOppositeGuide(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int element);
+
+}  // namespace tautline

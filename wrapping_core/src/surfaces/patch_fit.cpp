@@ -1,0 +1,131 @@
+#include "tautline/surfaces/patch_fit.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "surfaces/shape_checks.h"
+
+namespace tautline {
+namespace {
+
+void checkCloud(const std::vector<Vec2>& uv, const std::vector<Vec3>& points) {
+    require(uv.size() == points.size(), "patch fit: ", uv.size(), " coordinates for ", points.size(), " points");
+    require(!points.empty(), "patch fit: needs points");
+    for (std::size_t k = 0; k < points.size(); ++k)
+        require(uv[k].allFinite() && points[k].allFinite(), "patch fit: point ", k, " is not finite");
+}
+
+std::vector<Vec2> takeHeads(const std::vector<Vec3>& points) {
+    std::vector<Vec2> uv;
+    for (const Vec3& p : points) uv.push_back(p.head<2>());
+    return uv;
+}
+
+Eigen::MatrixX3d stack(const std::vector<Vec3>& points) {
+    Eigen::MatrixX3d rows(points.size(), 3);
+    for (std::size_t k = 0; k < points.size(); ++k) rows.row(k) = points[k].transpose();
+    return rows;
+}
+
+template <class Patch>
+FitReport calcReport(const Patch& patch, const std::vector<Vec2>& uv, const std::vector<Vec3>& points,
+                     int numUnknowns) {
+    FitReport report;
+    report.numUnknowns = numUnknowns;
+    report.sumOfSquares = report.largest = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const double residual = (patch.calcParametric(uv[k], 0).x - points[k]).norm();
+        report.residuals.push_back(residual);
+        report.sumOfSquares += residual * residual;
+        report.largest = std::max(report.largest, residual);
+    }
+    report.rms = std::sqrt(report.sumOfSquares / static_cast<double>(points.size()));
+    return report;
+}
+
+PolynomialFit fitPolynomial(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int orderU, int orderV,
+                            PolynomialTerms terms, const ParameterDomain& domain, bool isHeightPatch,
+                            double normalSign) {
+    checkCloud(uv, points);
+    require(std::min(orderU, orderV) >= 1 && std::max(orderU, orderV) <= PolynomialPatch::kMaxOrder,
+            "patch fit: orders must be in [1, ", int(PolynomialPatch::kMaxOrder), "], but are ", orderU, " and ",
+            orderV);
+    std::vector<int> columns;  // of the coefficient matrix that are fitted
+    for (int i = 0; i <= orderU; ++i)
+        for (int j = 0; j <= orderV; ++j)
+            if (terms == PolynomialTerms::Tensor || i + j <= std::max(orderU, orderV))
+                columns.push_back(i * (orderV + 1) + j);
+    const Eigen::Index count = static_cast<Eigen::Index>(columns.size()),
+                       numPoints = static_cast<Eigen::Index>(uv.size());
+    require(numPoints >= count, "patch fit: ", numPoints, " points for ", count, " polynomial terms");
+    const Vec2 middle = 0.5 * (domain.min + domain.max), half = 0.5 * (domain.max - domain.min);
+    Eigen::MatrixXd design(numPoints, count);
+    for (Eigen::Index k = 0; k < numPoints; ++k) {
+        const Vec2 s = (uv[k] - middle).cwiseQuotient(half);
+        for (Eigen::Index c = 0; c < count; ++c)
+            design(k, c) = std::pow(s[0], columns[c] / (orderV + 1)) * std::pow(s[1], columns[c] % (orderV + 1));
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(design);
+    require(qr.rank() == count, "patch fit: the points determine only ", qr.rank(), " of ", count, " polynomial terms");
+    const Eigen::MatrixX3d solution = qr.solve(stack(points));
+    Eigen::Matrix3Xd coefficients = Eigen::Matrix3Xd::Zero(3, (orderU + 1) * (orderV + 1));
+    for (Eigen::Index c = 0; c < count; ++c) coefficients.col(columns[c]) = solution.row(c).transpose();
+    PolynomialPatch patch(domain, orderU, orderV, coefficients, isHeightPatch, normalSign);
+    FitReport report = calcReport(patch, uv, points, static_cast<int>(count));
+    return {std::move(patch), std::move(report)};
+}
+
+BSplineFit fitBSpline(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int numU, int numV,
+                      const ParameterDomain& domain, bool isHeightPatch, double normalSign) {
+    checkCloud(uv, points);
+    require(numU >= 4 && numV >= 4, "patch fit: needs at least 4 control points in each direction, got ", numU, " by ",
+            numV);
+    Eigen::MatrixXd design = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(uv.size()), Eigen::Index(numU) * numV);
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+        const auto inU = BSplinePatch::calcBasis(uv[k][0], domain.min[0], domain.max[0], numU);
+        const auto inV = BSplinePatch::calcBasis(uv[k][1], domain.min[1], domain.max[1], numV);
+        for (int i = 0; i < 4; ++i)
+            design.row(k).segment<4>((inU.first + i) * numV + inV.first) = inU.value(0, i) * inV.value.row(0);
+    }
+    Eigen::Matrix3Xd controls = design.completeOrthogonalDecomposition().solve(stack(points)).transpose();
+    const Vec2 cell = (domain.max - domain.min).cwiseQuotient(Vec2(numU - 3, numV - 3));
+    for (int i = 0; isHeightPatch && i < numU; ++i)  // x = u, y = v exactly, also where the data leave gaps
+        for (int j = 0; j < numV; ++j)
+            controls.col(i * numV + j).head<2>() = domain.min + cell.cwiseProduct(Vec2(i - 1, j - 1));
+    BSplinePatch patch(domain, numU, numV, controls, isHeightPatch, normalSign);
+    FitReport report = calcReport(patch, uv, points, numU * numV);
+    return {std::move(patch), std::move(report)};
+}
+
+}  // namespace
+
+ParameterDomain findDomain(const std::vector<Vec2>& uv) {
+    require(!uv.empty(), "patch fit: needs points");
+    ParameterDomain domain{uv.front(), uv.front()};
+    for (const Vec2& at : uv) domain.min = domain.min.cwiseMin(at), domain.max = domain.max.cwiseMax(at);
+    return domain;
+}
+
+PolynomialFit fitPolynomialPatch(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int orderU, int orderV,
+                                 PolynomialTerms terms, const ParameterDomain& domain, double normalSign) {
+    return fitPolynomial(uv, points, orderU, orderV, terms, domain, false, normalSign);
+}
+
+/** x and y are polynomials of order 1 in u = x, v = y, so the fit of all three components is that of z. */
+PolynomialFit fitPolynomialHeights(const std::vector<Vec3>& points, int orderU, int orderV, PolynomialTerms terms,
+                                   double normalSign) {
+    const std::vector<Vec2> uv = takeHeads(points);
+    return fitPolynomial(uv, points, orderU, orderV, terms, findDomain(uv), true, normalSign);
+}
+
+BSplineFit fitBSplinePatch(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int numU, int numV,
+                           const ParameterDomain& domain, double normalSign) {
+    return fitBSpline(uv, points, numU, numV, domain, false, normalSign);
+}
+
+BSplineFit fitBSplineHeights(const std::vector<Vec3>& points, int numU, int numV, double normalSign) {
+    const std::vector<Vec2> uv = takeHeads(points);
+    return fitBSpline(uv, points, numU, numV, findDomain(uv), true, normalSign);
+}
+
+}  // namespace tautline

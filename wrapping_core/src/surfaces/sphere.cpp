@@ -1,0 +1,73 @@
+#include "tautline/surfaces/sphere.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surfaces/shape_checks.h"
+
+namespace tautline {
+
+// Declared extern in the header: the integrator is compiled once for each form, here.
+template class ImplicitShape<Sphere>;
+template class ParametricShape<ParametricSphere>;
+template class ParametricTwin<ParametricSphere, Sphere>;
+
+Sphere::Sphere(double radius) : m_radius(radius) {
+    requireLength(radius, "sphere: radius");
+}
+
+std::string Sphere::getDescription() const {
+    return describeShape("sphere(radius=", m_radius, ")");
+}
+
+double Sphere::calcHeight(const Vec3& p_S, Vec3& N_S) const {
+    const double distance = p_S.norm();
+    N_S = distance > 0 ? Vec3(p_S / distance) : Vec3(Vec3::UnitX());
+    return distance - m_radius;
+}
+
+SurfacePoint Sphere::findSurfacePoint(const Vec3& p_S) const {
+    Vec3 N;
+    calcHeight(p_S, N);
+    return {m_radius * N};
+}
+
+DarbouxFrame Sphere::calcFrame(const SurfacePoint& point, const Vec3& direction_S) const {
+    DarbouxFrame frame;
+    const double distance = point.p.norm();
+    frame.x = point.p, frame.N = point.p / distance;
+    frame.t = makeTangent(direction_S, frame.N), frame.B = frame.t.cross(frame.N);
+    frame.kappaN = frame.kappaB = -1 / distance, frame.tauG = 0;
+    return frame;
+}
+
+void Sphere::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Geodesic& geodesic) const {
+    const double angle = start.length / m_radius, c = std::cos(angle), s = std::sin(angle);
+    const DarbouxFrame P = Sphere::calcFrame(start.point, start.tangent);
+    geodesic.P = geodesic.Q = P;
+    geodesic.Q.N = c * P.N + s * P.t;  // B stays: a great circle has no torsion
+    geodesic.Q.t = c * P.t - s * P.N;
+    geodesic.Q.x = m_radius * geodesic.Q.N;
+    geodesic.endPoint = {geodesic.Q.x};
+    geodesic.length = start.length;
+    geodesic.a = c, geodesic.aDot = -s / m_radius;
+    geodesic.r = m_radius * s, geodesic.rDot = c;
+    geodesic.steps = 0, geodesic.converged = true;
+    geodesic.hasConjugatePoint = std::abs(angle) >= kPi;
+    geodesic.maxKappaN = P.kappaN;
+}
+
+void Sphere::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const {
+    const double s = -A_S.dot(e_S);
+    const Vec3 D = A_S + s * e_S;  // nearest the centre
+    Vec3 N = makeTangent(D, e_S);
+    if (N.dot(clearance.N) < 0) N = -N;  // of the two critical points, the one on the side that is kept
+    clearance.C = {m_radius * N}, clearance.N = N, clearance.lineCoordinate = s;
+    clearance.distance = D.dot(N) - m_radius, clearance.scale = 1 / m_radius, clearance.found = true;
+}
+
+double Sphere::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
+    return std::clamp(-A_S.dot(e_S), 0.0, length);
+}
+
+}  // namespace tautline

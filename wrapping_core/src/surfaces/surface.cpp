@@ -1,0 +1,95 @@
+#include "tautline/surfaces/surface.h"
+
+#include <algorithm>
+
+#include "tautline/error.h"
+
+namespace tautline {
+
+/** The critical point by Newton's method on two conditions for C alone,
+
+    F1 = e . N = 0,     F2 = (e x N) . (A - C) / size = 0,
+
+which hold exactly where the thesis's three do (Eqn. 7.28: D - C along N and orthogonal to the line) if d is
+not 0. Those three have a Jacobian whose determinant is proportional to d, so that C is lost to rounding
+where it matters most, at touchdown; these two stay regular there as long as kappa_n is not 0. */
+void Surface::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const {
+    constexpr int kMaxIterations = 50;
+    const double size = getSize(), tolerance = 1e-9 * size;  // of the step; what is left is its square
+    clearance.found = false;
+    SurfacePoint C = clearance.C;
+    for (int i = 0; i < kMaxIterations; ++i) {
+        const DarbouxFrame frame = calcFrame(C, e_S);  // t is e made tangent
+        const double et = e_S.dot(frame.t);
+        if (!(std::abs(et) > 1e-6)) return;  // the line runs along the normal: no start for Newton
+        const Vec3 w = A_S - C.p;
+        const Vec3 dN_t = -frame.kappaN * frame.t + frame.tauG * frame.B;
+        const Vec3 dN_B = frame.tauG * frame.t - frame.kappaB * frame.B;
+        const double F1 = e_S.dot(frame.N), F2 = et * frame.B.dot(w) / size;
+        const double J11 = e_S.dot(dN_t), J12 = e_S.dot(dN_B);
+        const double J21 = e_S.cross(dN_t).dot(w) / size, J22 = (e_S.cross(dN_B).dot(w) - et) / size;
+        const double determinant = J11 * J22 - J12 * J21;
+        Vec2 step((J12 * F2 - J22 * F1) / determinant, (J21 * F1 - J11 * F2) / determinant);
+        if (!step.allFinite()) return;
+        step *= size / std::max(size, step.norm());  // no farther in one step than the surface's size
+        C = calcDisplacedPoint(C, step[0] * frame.t + step[1] * frame.B);
+        if (step.norm() > tolerance) continue;
+        const DarbouxFrame end = calcFrame(C, e_S);
+        if (!(end.N.dot(clearance.N) > 0)) return;     // slid to another critical point
+        const double distance = end.N.dot(A_S - C.p);  // e . N = 0: the same from any point of the line
+        const double s0 = e_S.dot(C.p - A_S);
+        clearance.C = C, clearance.N = end.N, clearance.lineCoordinate = s0, clearance.distance = distance;
+        clearance.scale = std::max(std::abs(end.kappaN), 1 / size), clearance.found = true;
+        return;
+    }
+}
+
+double Surface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
+    constexpr int kLeastSamples = 16, kMostSamples = 400, kRefinements = 30;
+    const int count = std::clamp(static_cast<int>(4 * length / getSize()), kLeastSamples, kMostSamples);
+    Vec3 N;
+    const auto height = [&](double s) { return calcHeight(A_S + s * e_S, N); };
+    const double spacing = length / count;
+    double lowest = 0, least = height(0);
+    for (int i = 1; i <= count; ++i) {
+        const double h = height(i * spacing);
+        if (h < least) least = h, lowest = i * spacing;
+    }
+    // Ternary search between the neighbours: the height is convex there for all but contrived surfaces.
+    double a = std::max(0.0, lowest - spacing), b = std::min(length, lowest + spacing);
+    for (int i = 0; i < kRefinements; ++i) {
+        const double left = a + (b - a) / 3, right = b - (b - a) / 3;
+        (height(left) < height(right) ? b : a) = height(left) < height(right) ? right : left;
+    }
+    return 0.5 * (a + b);
+}
+
+int Surface::countHoleCrossings(const Vec3&, const Vec3&) const {
+    return 0;
+}
+
+int countDiscCrossings(double radius, const Vec3& A_S, const Vec3& B_S) {
+    const bool isAbove = A_S.z() > 0;
+    if (isAbove == (B_S.z() > 0)) return 0;
+    const Vec3 crossing = A_S + A_S.z() / (A_S.z() - B_S.z()) * (B_S - A_S);
+    if (!(crossing.head<2>().norm() < radius)) return 0;
+    return isAbove ? -1 : 1;
+}
+
+void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const GeodesicOptions& options, int count,
+                    std::vector<Vec3>& points_S) {
+    require(count >= 2, "sampleGeodesic: needs at least 2 points, got ", count);
+    points_S.resize(count);
+    GeodesicStart from = start;
+    from.length = start.length / (count - 1);
+    Geodesic piece;
+    for (int i = 1; i < count; ++i) {
+        surface.shootGeodesic(from, options, piece);
+        if (i == 1) points_S[0] = piece.P.x;
+        points_S[i] = piece.Q.x;
+        from.point = piece.endPoint;
+        from.tangent = piece.Q.t;
+    }
+}
+
+}  // namespace tautline
