@@ -8,8 +8,12 @@
 #include "support/random.h"
 #include "support/weave_scene.h"
 #include "tautline/error.h"
+#include "tautline/paths/path_explanation.h"
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/paths/path_verification.h"
+#include "tautline/surfaces/capsule.h"
+#include "tautline/surfaces/elliptic_cylinder.h"
+#include "tautline/surfaces/polynomial_patch.h"
 #include "tautline/surfaces/torus.h"
 
 namespace tautline::testing {
@@ -401,6 +405,115 @@ TEST(PathSolverDegenerate, EveryShapeFromEveryAwkwardPlace) {
             }
 }
 
+// Symptom (2026-11-25): not_converged, "still slides", since the string lay in a plane of symmetry and stayed there.
+TEST(PathSolverDegenerate, ChordsThroughAxesAndCentresAreSolvedInBothForms) {
+    const std::shared_ptr<const Surface> surfaces[] = {std::make_shared<Sphere>(0.4),
+                                                       std::make_shared<ParametricSphere>(0.4),
+                                                       std::make_shared<Cylinder>(0.4),
+                                                       std::make_shared<ParametricCylinder>(0.4),
+                                                       std::make_shared<EllipticCylinder>(0.4, 0.3),
+                                                       std::make_shared<ParametricEllipticCylinder>(0.4, 0.3),
+                                                       std::make_shared<Capsule>(0.4, 1.0, 0.3),
+                                                       std::make_shared<ParametricCapsule>(0.4, 1.0, 0.3),
+                                                       std::make_shared<Ellipsoid>(Vec3(0.4, 0.3, 0.2)),
+                                                       std::make_shared<ParametricEllipsoid>(Vec3(0.4, 0.3, 0.2))};
+    for (const auto& surface : surfaces)
+        for (const double a : {0.6, 1.0, 8.0})
+            for (const double slant : {0.0, 0.5, -0.1})
+                for (const bool alongY : {false, true}) {
+                    const Vec3 side = alongY ? Vec3(0, a, slant) : Vec3(a, 0, slant);
+                    SCOPED_TRACE(surface->getDescription() + " " + std::to_string(a) + " " + std::to_string(slant));
+                    Scene scene;
+                    scene.point(-side).obstacle(surface, Pose()).point(1.25 * side);
+                    const PathSolution path = scene.solve();
+                    EXPECT_EQ(path.status, PathStatus::Solved);
+                    EXPECT_TRUE(path.contacts[1].isTouched);
+                    EXPECT_GT(path.length, 2.25 * side.norm());
+                }
+}
+
+TEST(PathSolverDegenerate, EllipsoidsAsThinAsOneToTwentyAreSolvedFromAnywhere) {
+    Random random(12);
+    for (int i = 0; i < 40; ++i)
+        for (const bool isBroadside : {true, false}) {
+            const Vec3 ahead = isBroadside ? Vec3(0, 0, 2) : Vec3(2, 0, 0), spread(0.3, 0.3, isBroadside ? 0.3 : 0.015);
+            Scene scene;
+            scene.point(ahead + random.vector(1).cwiseProduct(spread));
+            scene.obstacle(std::make_shared<Ellipsoid>(Vec3(1, 0.8, 0.05)), Pose());
+            scene.point(random.vector(1).cwiseProduct(spread) - ahead);
+            EXPECT_EQ(scene.solve().status, PathStatus::Solved) << i << isBroadside;
+        }
+}
+
+// ---- Surfaces that end: beyond the edge of a domain there is nothing to touch.
+
+/** A dome over [-1, 1]^2, 0.4 high in the middle, -0.2 at the corners. */
+std::shared_ptr<const Surface> makeDome() {
+    Eigen::MatrixXd p = Eigen::MatrixXd::Zero(3, 3);
+    p(0, 0) = 0.4, p(2, 0) = p(0, 2) = -0.3;
+    return std::make_shared<PolynomialPatch>(PolynomialPatch::makeHeightPatch({Vec2(-1, -1), Vec2(1, 1)}, p));
+}
+
+// Symptom (2026-11-25): left_domain, or end_inside, for lines and ends that are below nothing but the extension.
+TEST(PathSolverDomain, WhatLiesBelowAnExtensionIsClear) {
+    for (const auto& [A, B] :
+         {std::pair(Vec3(-2, 1.3, -0.4), Vec3(2, 1.3, -0.4)), std::pair(Vec3(-2, 4, -3), Vec3(2, 4, -3)),
+          std::pair(Vec3(-5, -5, -9), Vec3(-5, -5, 3))}) {
+        Scene scene;
+        scene.point(A).obstacle(makeDome(), Pose()).point(B);
+        const PathSolution path = scene.solve();
+        EXPECT_EQ(path.status, PathStatus::Solved);
+        EXPECT_FALSE(path.contacts[1].isTouched);
+        EXPECT_NEAR(path.length, (B - A).norm(), 1e-14);
+    }
+}
+
+TEST(PathSolverDomain, AnEndBesideThePatchMayBeLowerThanItsExtension) {
+    Scene scene;
+    scene.point(Vec3(-2, 0, -0.3)).obstacle(makeDome(), Pose()).point(Vec3(2, 0.1, -0.3));
+    const PathSolution path = scene.solve();
+    EXPECT_EQ(path.status, PathStatus::Solved);
+    EXPECT_TRUE(path.contacts[1].isTouched);
+}
+
+TEST(PathSolverDomain, AStringThatCatchesOnTheEdgeHasLeftTheDomain) {
+    Scene scene;
+    scene.point(Vec3(-1.1, 0, -0.3)).obstacle(makeDome(), Pose()).point(Vec3(1.1, 0.1, -0.3));
+    const PathSolution path = scene.solve();
+    EXPECT_EQ(path.status, PathStatus::LeftDomain);
+    expectDrawable(scene, path);
+    const std::string why = explainStatus(scene.problem, scene.pose, path);
+    EXPECT_NE(why.find("domain of"), std::string::npos) << why;
+}
+
+// ---- Poses that are not finite.
+
+// Symptom (2026-11-25): solved, with a length that is no number, or straight through the obstacle.
+TEST(PathSolverStatus, APoseThatIsNotFiniteIsNeverSolved) {
+    Scene scene;
+    scene.point(Vec3(-1, 0.2, 0)).obstacle(std::make_shared<Sphere>(0.4), Pose()).point(Vec3(1, 0.1, 0));
+    const PathSolution good = scene.solve();
+    ASSERT_EQ(good.status, PathStatus::Solved);
+    for (int e = 0; e < 3; ++e)
+        for (const double bad : {kNaN, kInfinity})
+            for (const bool isRotation : {false, true}) {
+                PathPose pose = scene.pose;
+                (isRotation ? pose.X_GE[e].R(1, 2) : pose.X_GE[e].p.y()) = bad;
+                PathSolution path = solvePath(scene.problem, pose);
+                EXPECT_EQ(path.status, PathStatus::NotConverged);
+                EXPECT_EQ(explainStatus(scene.problem, pose, path), "a pose is not finite");
+                // A path that is continued stays as it was, to be drawn and to start from.
+                path = good;
+                PathSolver().solve(scene.problem, pose, path);
+                EXPECT_EQ(path.status, PathStatus::NotConverged);
+                EXPECT_EQ(path.length, good.length);
+                PathSolver().solveKeepingContacts(scene.problem, pose, path);
+                EXPECT_EQ(path.status, PathStatus::NotConverged);
+                PathSolver().solve(scene.problem, scene.pose, path);
+                EXPECT_EQ(path.status, PathStatus::Solved);
+            }
+}
+
 // Symptom (2026-11-22): segments of length 0 with e = 0 where both ends lie on the surface itself.
 TEST(PathSolverDegenerate, EndsOnTheSurfaceLeaveUnitDirections) {
     Scene scene;
@@ -559,6 +672,12 @@ TEST(PathSolverRefuses, ProblemsThatAreNoPath) {
         Scene scene;
         scene.point(Vec3(0, 0, 0)).obstacle(sphere, Pose()).point(Vec3(3, 0, 0));
         scene.pose.X_GE.pop_back();
+        scene.solve();
+    });
+    expectRefused("isActive has 1 entries for 3 elements", [&] {
+        Scene scene;
+        scene.point(Vec3(0, 0, 0)).obstacle(sphere, Pose()).point(Vec3(3, 0, 0));
+        scene.pose.isActive = {1};
         scene.solve();
     });
     expectRefused("needs a path that was solved before", [&] {

@@ -30,6 +30,16 @@ bool isFinite(const PathSolution& path, const std::vector<Vec3>& points) {
     return finite;
 }
 
+/** True if the string comes to rest when the scene is moved a little, so that nothing symmetric is left. */
+bool hasMinimumNearby(const PathProblem& problem, const PathPose& pose) {
+    PathPose moved = pose;
+    for (std::size_t e = 0; e < moved.X_GE.size(); ++e) {
+        const double phase = 1.0 + static_cast<double>(e);
+        moved.X_GE[e].p += 1e-9 * Vec3(std::sin(phase), std::sin(2 * phase), std::sin(3 * phase));
+    }
+    return solvePath(problem, moved).status == PathStatus::Solved;
+}
+
 /** What a solve came to, in few words; for what is no solution, why there is none. */
 std::string classify(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     const std::string why = explainStatus(problem, pose, path);
@@ -39,8 +49,14 @@ std::string classify(const PathProblem& problem, const PathPose& pose, const Pat
     for (const char* reason :
          {"is inside", "in the groove", "in two places", "against the order", "still slides", "would lift inside",
           "pressure vanishes", "leaves the domain", "too short for the rounding"})
-        if (has(reason)) return key + ", " + reason;
+        if (has(reason) && !(has("still slides") && hasMinimumNearby(problem, pose))) return key + ", " + reason;
     return key + ", unexplained: " + why;
+}
+
+/** One scene in seven is made of all kinds and forms of surfaces, some of which are slow. */
+RandomScene::Kinds chooseKinds(unsigned seed) {
+    if (seed % 8 == 0) return RandomScene::Kinds::All;
+    return seed % 64 == 4 ? RandomScene::Kinds::Aligned : RandomScene::Kinds::Basic;
 }
 
 struct Slowest {
@@ -58,9 +74,7 @@ void runScenes(int count, unsigned firstSeed) {
         const unsigned seed = firstSeed + static_cast<unsigned>(i);
         PathProblem problem;
         PathPose pose;
-        // Every eighth scene is made of all kinds and forms of surfaces, some of which are slow.
-        const auto kinds = seed % 8 == 0 ? RandomScene::Kinds::All : RandomScene::Kinds::Basic;
-        RandomScene(seed, kinds).make(problem, pose);
+        RandomScene(seed, chooseKinds(seed)).make(problem, pose);
         PathSolution path;
         const auto start = std::chrono::steady_clock::now();
         EXPECT_NO_THROW(solver.solve(problem, pose, path)) << "seed " << seed;

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "paths/hole_passages.h"
+#include "support/random.h"
 #include "tautline/error.h"
+#include "tautline/paths/path_explanation.h"
 #include "tautline/paths/path_solver.h"
 #include "tautline/paths/segment_clearance.h"
 #include "tautline/surfaces/cylinder.h"
@@ -118,6 +120,56 @@ TEST(StartThreading, FollowsTheStraightLineWhereNothingIsSaid) {
             EXPECT_EQ(scene.path.status, PathStatus::Solved) << rho << " " << slant;
             EXPECT_EQ(scene.passage().count, rho < 1 ? 1 : 0) << rho << " " << slant;
         }
+}
+
+// Symptom (2026-11-25): with both ends on one side the ring was passed outside, without a word.
+TEST(StartThreading, LeadsAroundTheTubeWhereAnEndIsOnTheWrongSide) {
+    const Vec3 inner(0.5, 0, 1), outer(1.5, 0.05, 1), mirror(1, 1, -1);
+    for (const double side : {-1.0, 1.0})
+        for (const int passages : {-1, 1})
+            for (const bool beginsInside : {true, false}) {
+                const Vec3 A = beginsInside ? inner : outer, B = beginsInside ? outer : inner;
+                const Vec3 scale = side > 0 ? Vec3(1, 1, 1) : mirror;
+                const SingleObstacle scene(std::make_shared<Torus>(1, 0.2), ThreadHole{passages}, A.cwiseProduct(scale),
+                                           B.cwiseProduct(scale));
+                EXPECT_EQ(scene.path.status, PathStatus::Solved) << side << passages << beginsInside;
+                EXPECT_EQ(scene.passage().count, passages) << side << passages << beginsInside;
+                EXPECT_TRUE(scene.path.followsHints);
+                // Once around the bar from below or above; the mirrored scene has the same length.
+                EXPECT_NEAR(scene.path.length, (passages * side < 0) == beginsInside ? 2.71518 : 3.08637, 1e-5);
+            }
+}
+
+// A line clear of the tube threads a ring without a hint exactly if it passes the hole.
+TEST(StartThreading, FollowsAnyLineThatIsClearOfTheTube) {
+    testing::Random random(8);
+    int threaded = 0, outside = 0;
+    while (threaded < 100 || outside < 100) {
+        const Torus torus(1, random.uniform(0.1, 0.7));
+        const Vec3 A = random.vector(3), B = random.vector(3);
+        const double length = (B - A).norm();
+        Vec3 N;
+        const double s = torus.findLowestPoint(A, (B - A) / length, length);
+        if (torus.calcHeight(A + s * (B - A) / length, N) < 0.01) continue;
+        const SingleObstacle scene(std::make_shared<Torus>(torus), {}, A, B);
+        const int crossings = torus.countHoleCrossings(A, B);
+        ++(crossings ? threaded : outside);
+        EXPECT_EQ(scene.path.status, PathStatus::Solved);
+        EXPECT_EQ(scene.passage().count, crossings);
+        EXPECT_TRUE(scene.path.followsHints);
+        EXPECT_NEAR(scene.path.length, length, 1e-12);
+    }
+}
+
+// Through the hole, and through the tube on both sides of it: the threaded string touches the ring in two places, which
+// one arc cannot say. The answer is a minimum, and says that it is not the one.
+TEST(StartThreading, SaysWhereARingIsNotThreadedAsTheLineIs) {
+    const SingleObstacle scene(std::make_shared<Torus>(1, 0.4), {}, Vec3(-2, 0, -0.6), Vec3(2, 0, 0.6));
+    EXPECT_EQ(scene.passage().count == 1, scene.path.followsHints);
+    if (scene.path.status == PathStatus::Solved && !scene.path.followsHints) {
+        EXPECT_EQ(explainStatus(scene.problem, scene.pose, scene.path),
+                  "a local minimum, but not where the hints lead");
+    }
 }
 
 TEST(HolePassage, KeepsAThreadedPathThroughARingThatJumps) {

@@ -42,8 +42,8 @@ TEST(Weave, TenCylindersHaveTheKnownMeanLength) {
 /** Length of a fine elastic string laid along a path and let go. */
 double calcRelaxedLength(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     ElasticString string;
-    string.lay(problem, pose, calcPreviousGuides(problem, pose, path));
-    string.relax(problem, pose, 0.25, 1e-6, 6000);
+    string.lay(problem, pose, calcPreviousCourse(problem, pose, path).guides);
+    string.relax(problem, 0.25, 1e-6, 6000);
     double length = 0;
     for (std::size_t k = 0; k + 1 < string.getNodes().size(); ++k)
         length += (string.getNodes()[k + 1] - string.getNodes()[k]).norm();

@@ -13,7 +13,12 @@ namespace tautline::testing {
 
 class RandomScene {
 public:
-    enum class Kinds { Basic, All };  ///< sphere, cylinder, ellipsoid and torus; or every kind and form there is
+    enum class Kinds {
+        Basic,    ///< sphere, cylinder, ellipsoid and torus
+        All,      ///< every kind and form there is
+        Aligned,  ///< of these, along ground's axes and in places that are exact: lines through axes and centres; all
+                  ///< hints
+    };
 
     RandomScene(unsigned seed, Kinds kinds) : m_random(seed), m_kinds(kinds) {}
 
@@ -21,20 +26,22 @@ public:
     void make(PathProblem& problem, PathPose& pose) {
         const int n = 1 + pick(6);
         problem.addPoint("origin");
-        pose.X_GE.emplace_back(point(2));
+        pose.X_GE.emplace_back(makePlace());
         for (int i = 0; i < n; ++i) {
-            const std::optional<Vec3> hint = pick(3) > 0 ? std::optional<Vec3>(point(1)) : std::nullopt;
+            const StartHint near = pick(3) > 0 ? StartHint(PassNear{point(1)}) : StartHint();
             const double size = std::pow(10, uniform(-2, 0.3));
-            problem.addObstacle("s" + std::to_string(i), m_kinds == Kinds::Basic ? makeBasic(size) : makeAny(size),
-                                hint);
-            pose.X_GE.emplace_back(makeRotation(), point(2));
+            const SurfacePtr surface = m_kinds == Kinds::Basic ? makeBasic(size) : makeAny(size);
+            problem.addObstacle("s" + std::to_string(i), surface,
+                                m_kinds == Kinds::Aligned ? makeHint(*surface) : near);
+            const Mat3 R = makeRotation();
+            pose.X_GE.emplace_back(R, makePlace());
             if (pick(10) == 0) {
                 problem.addPoint("via" + std::to_string(i));
-                pose.X_GE.emplace_back(point(2));
+                pose.X_GE.emplace_back(makePlace());
             }
         }
         problem.addPoint("insertion");
-        pose.X_GE.emplace_back(point(2));
+        pose.X_GE.emplace_back(makePlace());
         degenerate(pose);
     }
 
@@ -46,6 +53,26 @@ private:
     }
     int pick(int count) { return static_cast<int>(m_random() % static_cast<unsigned>(count)); }
     Vec3 point(double extent) { return {uniform(-extent, extent), uniform(-extent, extent), uniform(-extent, extent)}; }
+    /** Aligned: in a coarse lattice, so that centres lie on lines and in planes of others. */
+    Vec3 makePlace() {
+        const Vec3 place = point(2);
+        return m_kinds == Kinds::Aligned ? Vec3((2 * place).array().round() / 2) : place;
+    }
+    StartHint makeHint(const Surface& surface) {
+        switch (pick(6)) {
+            case 0:
+                return PassNear{point(1)};
+            case 1:
+                return PassOnSide{point(1)};
+            case 2:
+                return WindAround{uniform(-2, 2)};
+            case 3:
+                if (surface.countHoleCrossings(-Vec3::UnitZ(), Vec3::UnitZ()) != 0) return ThreadHole{pick(5) - 2};
+                return {};
+            default:
+                return {};
+        }
+    }
     Vec3 makeFactors() { return {uniform(0.2, 1), uniform(0.2, 1), uniform(0.2, 1)}; }
 
     SurfacePtr makeBasic(double size) {
@@ -63,7 +90,7 @@ private:
 
     SurfacePtr makeAny(double size) {
         const bool isParametric = pick(2) == 0;
-        switch (pick(16)) {
+        switch (pick(m_kinds == Kinds::Aligned ? 17 : 16)) {
             case 0:
                 return makeForm<Sphere, ParametricSphere>(isParametric, size);
             case 1:
@@ -99,8 +126,10 @@ private:
                 return makeScaledPatch(makePolynomialPatch(4, isParametric ? 1 : -1), 0.3 + size);
             case 14:
                 return makeScaledPatch(makeBumpPatch(7, isParametric ? 1 : -1), 0.3 + size);
-            default:
+            case 15:
                 return std::make_shared<ImplicitFunctionSurface>(makePear());
+            default:
+                return makeSheet();
         }
     }
 
@@ -121,8 +150,16 @@ private:
         return std::make_shared<ScaledParametricSurface<Patch>>(patch, Vec3::Constant(size));
     }
 
+    static SurfacePtr makeSheet() {
+        const auto sheet = [](auto u, auto v) {
+            return std::array<decltype(u), 3>{u + 0.1 * v, v - 0.1 * u * u, 0.3 * sin(u) * cos(v)};
+        };
+        const ParameterDomain square{Vec2(-1.2, -1.2), Vec2(1.2, 1.2)};
+        return std::make_shared<ParametricFunctionSurface>(makeParametricSurface("sheet", 0.5, square, sheet));
+    }
+
     Mat3 makeRotation() {
-        if (pick(5) == 0) return Mat3::Identity();  // axes along ground's: exact zeros
+        if (pick(5) == 0 || m_kinds == Kinds::Aligned) return Mat3::Identity();  // axes along ground's: exact zeros
         return Eigen::Quaterniond(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1) + 2)
             .normalized()
             .toRotationMatrix();

@@ -13,18 +13,24 @@ constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the othe
 
 bool ColdSearch::findPathAlong(const PathProblem& problem, const PathPose& pose, const PathSolution& previous,
                                PathSolution& path) {
-    return findPath(problem, pose, calcPreviousGuides(problem, pose, previous), PassageRule::AsBefore, path);
+    return findPath(problem, pose, calcPreviousCourse(problem, pose, previous), path);
 }
 
 bool ColdSearch::findPathFromHints(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
-    StartGuides guides = calcHintGuides(problem, pose);
-    return findPath(problem, pose, guides, PassageRule::AsHinted, path) ||
-           findPathWithoutPoints(problem, pose, guides, path) || findOtherSides(problem, pose, guides, path);
+    StartCourse course = calcHintedCourse(problem, pose);
+    m_spare.contacts.clear();
+    path.followsHints = findPath(problem, pose, course, path);
+    if (path.followsHints || findPathWithoutPoints(problem, pose, course, path) ||
+        findOtherSides(problem, pose, course, path))
+        return true;
+    if (m_spare.isEmpty()) return false;
+    goBack(m_spare, path);
+    return true;
 }
 
 /** Lets a string fall taut along the guides, ever finer, until the search leads on from it to a
 verified minimum. */
-bool ColdSearch::findPath(const PathProblem& problem, const PathPose& pose, const StartGuides& guides, PassageRule rule,
+bool ColdSearch::findPath(const PathProblem& problem, const PathPose& pose, const StartCourse& course,
                           PathSolution& path) {
     struct Level {
         double fineness, tolerance;
@@ -34,9 +40,9 @@ bool ColdSearch::findPath(const PathProblem& problem, const PathPose& pose, cons
     constexpr Level kPatient = {0.5, 1e-6, 6000};  // for strings that slide off slowly
     path.wasCold = true;
     path.fault = {};
-    m_string.lay(problem, pose, guides);
+    m_string.lay(problem, pose, course.guides);
     const auto tighten = [&](const Level& level) {
-        return tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, rule, path);
+        return tightenString(problem, pose, level.fineness, level.tolerance, level.maxSweeps, course.passages, path);
     };
     for (const Level& level : kLevels) {
         if (tighten(level)) return true;
@@ -52,11 +58,22 @@ bool ColdSearch::findPath(const PathProblem& problem, const PathPose& pose, cons
 
 /** @return true if the path that the relaxed string suggests leads on to a verified minimum */
 bool ColdSearch::tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
-                               int maxSweeps, PassageRule rule, PathSolution& path) {
-    m_string.relax(problem, pose, fineness, tolerance, maxSweeps);
+                               int maxSweeps, const PassageRule& rule, PathSolution& path) {
+    m_string.relax(problem, fineness, tolerance, maxSweeps);
     for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
     m_string.extractContacts(problem, pose, path.contacts);
-    return m_search.findMinimum(problem, pose, rule, path);
+    if (m_search.findMinimum(problem, pose, rule, path)) return true;
+    if (m_spare.isEmpty() && isMinimumBesideRings(problem, pose, rule, path)) m_spare = path;
+    return false;
+}
+
+/** True for a minimum that only misses the way in which the straight line goes through rings without a hint. */
+bool ColdSearch::isMinimumBesideRings(const PathProblem& problem, const PathPose& pose, PassageRule rule,
+                                      const PathSolution& path) const {
+    if (rule.counts.empty() || !(path.pathError <= m_tolerance)) return false;
+    for (int e = 0; e < problem.getNumElements(); ++e)
+        if (std::holds_alternative<std::monostate>(problem.getElement(e).hint)) rule.counts[e] = PassageRule::kAny;
+    return hasRightPassages(problem, pose, rule, path) && verifyPath(problem, pose, path).isMinimum();
 }
 
 /** An arc beyond its conjugate point is shortest among geodesics nearby, but not among curves: only the string, which
@@ -75,24 +92,24 @@ bool ColdSearch::pushOffConjugatePoint(const PathProblem& problem, const PathPos
 
 /** Where points near the path lead to no minimum (they may be far from any), the sides that the straight lines between
 the others suggest may. @return false with `path` as it was */
-bool ColdSearch::findPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartGuides guides,
+bool ColdSearch::findPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartCourse course,
                                        PathSolution& path) {
     bool hasPoints = false;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (!std::holds_alternative<PassNear>(problem.getElement(e).hint)) continue;
-        hasPoints = hasPoints || !guides[e].empty();
-        guides[e].clear();
+        hasPoints = hasPoints || !course.guides[e].empty();
+        course.guides[e].clear();
     }
     if (!hasPoints) return false;
     m_before = path;
-    if (findPath(problem, pose, guides, PassageRule::AsHinted, path)) return true;
+    if (findPath(problem, pose, course, path)) return true;
     goBack(m_before, path);
     return false;
 }
 
 /** Where the side that the straight line or a point near the path suggests leads to no minimum (surfaces that overlap
 there, a contact that would have to be two), the other side of one obstacle may. @return false with `path` as it was */
-bool ColdSearch::findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides,
+bool ColdSearch::findOtherSides(const PathProblem& problem, const PathPose& pose, StartCourse& course,
                                 PathSolution& path) {
     int tries = 0;
     m_before = path;
@@ -101,11 +118,10 @@ bool ColdSearch::findOtherSides(const PathProblem& problem, const PathPose& pose
         if (element.isPoint() || !pose.hasElement(e) || !m_before.contacts[e].isTouched ||
             !(std::holds_alternative<std::monostate>(element.hint) || std::holds_alternative<PassNear>(element.hint)))
             continue;
-        const std::vector<Vec3> hinted = guides[e];
-        guides[e] = {calcOppositeGuide(problem, pose, m_before, e)};
-        if (guides[e].front().allFinite() && ++tries && findPath(problem, pose, guides, PassageRule::AsHinted, path))
-            return true;
-        guides[e] = hinted;
+        const std::vector<Vec3> hinted = course.guides[e];
+        course.guides[e] = {calcOppositeGuide(problem, pose, m_before, e)};
+        if (course.guides[e].front().allFinite() && ++tries && findPath(problem, pose, course, path)) return true;
+        course.guides[e] = hinted;
     }
     goBack(m_before, path);
     return false;

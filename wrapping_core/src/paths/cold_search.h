@@ -17,22 +17,25 @@ public:
     bool findPathAlong(const PathProblem& problem, const PathPose& pose, const PathSolution& previous,
                        PathSolution& path);
 
-    /** As the hints of the problem say; where they lead to no minimum, past point hints and on other sides. */
+    /** As the hints of the problem say; where they lead to no minimum, past point hints, on other sides, and past rings
+    that have no hint but would be threaded by the straight line. Says in the path whether it follows the hints. */
     bool findPathFromHints(const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 private:
-    bool findPath(const PathProblem& problem, const PathPose& pose, const StartGuides& guides, PassageRule rule,
-                  PathSolution& path);
+    bool findPath(const PathProblem& problem, const PathPose& pose, const StartCourse& course, PathSolution& path);
     bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
-                       int maxSweeps, PassageRule rule, PathSolution& path);
+                       int maxSweeps, const PassageRule& rule, PathSolution& path);
+    bool isMinimumBesideRings(const PathProblem& problem, const PathPose& pose, PassageRule rule,
+                              const PathSolution& path) const;
     bool pushOffConjugatePoint(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
-    bool findPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartGuides guides,
+    bool findPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartCourse course,
                                PathSolution& path);
-    bool findOtherSides(const PathProblem& problem, const PathPose& pose, StartGuides& guides, PathSolution& path);
+    bool findOtherSides(const PathProblem& problem, const PathPose& pose, StartCourse& course, PathSolution& path);
 
     double m_tolerance;  ///< on max |eps|
     ContactSearch& m_search;
     ElasticString m_string;
+    PathSolution m_spare;   ///< the answer where no ring can be threaded as the straight line does; empty: none met
     PathSolution m_before;  ///< to go back to where another try fails
 };
 

@@ -79,7 +79,7 @@ bool ContactSearch::search(const PathProblem& problem, const PathPose& pose, Pat
     return false;
 }
 
-bool ContactSearch::findMinimum(const PathProblem& problem, const PathPose& pose, PassageRule rule,
+bool ContactSearch::findMinimum(const PathProblem& problem, const PathPose& pose, const PassageRule& rule,
                                 PathSolution& path) {
     for (int repair = 0; search(problem, pose, path); ++repair) {
         const PathVerification verification = verifyPath(problem, pose, path);

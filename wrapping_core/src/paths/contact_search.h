@@ -14,7 +14,7 @@ public:
     /** Searches for the contact set, mending cusps and leaving saddles, until verifyPath() finds no fault.
     @param path   in: contact set and starts; out: the best path met. @return true if it is a minimum that goes through
     the holes as it should */
-    bool findMinimum(const PathProblem& problem, const PathPose& pose, PassageRule rule, PathSolution& path);
+    bool findMinimum(const PathProblem& problem, const PathPose& pose, const PassageRule& rule, PathSolution& path);
 
     /** Newton on one contact set, then lift what has negative length and touch what is penetrated, one at a time, until
     neither is left. The path may be stationary only.

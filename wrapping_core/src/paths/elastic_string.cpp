@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tautline/paths/contact_switch.h"
+
 namespace tautline {
 namespace {
 
@@ -16,6 +18,17 @@ constexpr double kTouching = 0.01;              ///< height in sizes below which
 constexpr int kSweepsPerMesh = 20;
 constexpr long kMaxHeightsPerElement = 500000;  ///< heights over surfaces that one laying may ask for: its time
 constexpr double kMaxRelaxation = 1.9;
+
+/** Where a line along e that dips deepest below a surface at D is bent to: the foot of D, straight across from it. If
+it is not across, D lies on an axis or a centre, and the foot may lie in a plane of symmetry in which the string would
+stay: then the foot of a point beside D, in a direction that is special for no shape. */
+Vec3 findBend(const Surface& surface, const Vec3& D_S, const Vec3& e_S) {
+    constexpr double kAskew = 0.1, kBeside = 1e-3;  // cosine of the angle to the line; in sizes
+    const Vec3 foot = surface.findSurfacePoint(D_S).p;
+    if (std::abs(e_S.dot(foot - D_S)) <= kAskew * (foot - D_S).norm()) return foot;
+    const Vec3 beside = makeTangent(Vec3(0.48, 0.64, 0.6), e_S);
+    return surface.findSurfacePoint(D_S + kBeside * surface.getSize() * beside).p;
+}
 
 }  // namespace
 
@@ -62,11 +75,11 @@ void ElasticString::layEdge(const PathProblem& problem, int firstHold, Vec3 A, c
         const Vec3 A_S = X_GS.shiftBack(A), e_S = X_GS.R.transpose() * (B - A) / length;
         const double s = surface.findLowestPoint(A_S, e_S, length);
         const Vec3 D_S = A_S + s * e_S;
-        const double depthThere = surface.calcHeight(D_S, N_S) / surface.getSize();
+        const double depthThere = surface.calcHeightOverDomain(D_S, N_S) / surface.getSize();
         // An end below the surface is no bend: that obstacle is switched off, or the guide lies in another.
         if (!(depthThere < deepest) || s <= 0 || s >= length) continue;
         deepest = depthThere, crossed = i;
-        bend = X_GS * surface.findSurfacePoint(D_S).p;
+        bend = X_GS * findBend(surface, D_S, e_S);
     }
     if (crossed < 0) return;
     layEdge(problem, firstHold, A, bend, depth - 1);
@@ -85,8 +98,7 @@ void ElasticString::noteContact(Hold& hold, int node) {
     hold.last = std::max(hold.last, node);
 }
 
-void ElasticString::relax(const PathProblem& problem, const PathPose&, double fineness, double tolerance,
-                          int maxSweeps) {
+void ElasticString::relax(const PathProblem& problem, double fineness, double tolerance, int maxSweeps) {
     if (!(m_extent > 0)) return;
     double relaxation = 1;
     m_isAtRest = false;
@@ -199,7 +211,8 @@ void ElasticString::updatePortions(const PathProblem& problem) {
         if (hold.touches()) after = std::min(after, hold.first);
         const Surface& surface = *problem.getElement(hold.element).surface;
         const auto isInside = [&](int node) {
-            return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) < -1e-10 * surface.getSize();
+            return surface.calcHeightOverDomain(hold.X_GS.shiftBack(m_nodes[node]), N_S) <
+                   kContactTolerance * surface.getSize();
         };
         hold.isSwitchedOff = isInside(hold.from) || isInside(hold.to);
     }
@@ -234,7 +247,7 @@ void ElasticString::pushOut(const PathProblem& problem, int node, double& room) 
         if (hold.isSwitchedOff) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
         Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
-        const double height = surface.calcHeight(p_S, N_S), size = surface.getSize();
+        const double height = surface.calcHeightOverDomain(p_S, N_S), size = surface.getSize();
         ++m_numHeights;
         room = std::min(room, size + std::max(0.0, height));
         if (height > 0) continue;
@@ -264,7 +277,20 @@ bool ElasticString::restsOn(const PathProblem& problem, const Hold& hold, int no
     return !hold.isSwitchedOff && hold.from < node && node < hold.to && calcHeight(problem, hold, node) < kTouching;
 }
 
+/** True if the string hangs down beyond the edge of a surface on which it rests. */
+bool ElasticString::catchesOnEdge(const PathProblem& problem, const Hold& hold) const {
+    const Surface& surface = *problem.getElement(hold.element).surface;
+    Vec3 N_S;
+    const auto isBeyondEdge = [&](int node) {
+        const Vec3 p_S = hold.X_GS.shiftBack(m_nodes[node]);
+        return surface.calcHeight(p_S, N_S) < 0 && surface.calcHeightOverDomain(p_S, N_S) > 0;
+    };
+    return hold.touches() && (isBeyondEdge(hold.first - 1) || isBeyondEdge(hold.last + 1));
+}
+
 StringFault ElasticString::findFault(const PathProblem& problem) const {
+    for (const Hold& hold : m_holds)
+        if (catchesOnEdge(problem, hold)) return {StringFault::Kind::Edge, hold.element, -1};
     const Hold* before = nullptr;
     for (const Hold& hold : m_holds) {
         if (!hold.touches()) continue;

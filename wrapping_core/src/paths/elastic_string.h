@@ -14,10 +14,10 @@ public:
     /** Lays the string from origin to insertion along its guides, and around the surfaces that lie between. */
     void lay(const PathProblem& problem, const PathPose& pose, const StartGuides& guides);
 
-    /** Relaxes by projected successive over-relaxation until nodes move less than `tolerance` of their
-    spacing per sweep, or `maxSweeps`, or until
-    this laying has cost what it may. @param fineness   spacing of nodes relative to the default */
-    void relax(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance, int maxSweeps);
+    /** Relaxes by projected successive over-relaxation until nodes move less than `tolerance` of their spacing per
+    sweep, or `maxSweeps`, or until this laying has cost what it may. @param fineness   spacing of nodes relative to the
+    default */
+    void relax(const PathProblem& problem, double fineness, double tolerance, int maxSweeps);
 
     /** Moves the nodes that touch an element, to free a string from a saddle. @param by_G   in ground [m] */
     void push(int element, const Vec3& by_G);
@@ -53,6 +53,7 @@ private:
     double calcRoom(const PathProblem& problem, const Vec3& x, int node) const;
     void pushOut(const PathProblem& problem, int node, double& room);
     double calcHeight(const PathProblem& problem, const Hold& hold, int node) const;
+    bool catchesOnEdge(const PathProblem& problem, const Hold& hold) const;
     bool leavesAndReturns(const PathProblem& problem, const Hold& hold) const;
     bool restsOn(const PathProblem& problem, const Hold& hold, int node) const;
 

@@ -80,15 +80,14 @@ bool hasLeftHole(const Surface& surface, const HolePassage& before, const HolePa
            0;
 }
 
-bool hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule, const PathSolution& path) {
+bool hasRightPassages(const PathProblem& problem, const PathPose& pose, const PassageRule& rule,
+                      const PathSolution& path) {
     bool isRight = true;
     visitHoles(problem, pose, path, [&](int e, const HolePassage& passage) {
-        const PathElement& element = problem.getElement(e);
-        const auto* thread = std::get_if<ThreadHole>(&element.hint);
-        if (rule == PassageRule::AsBefore)
-            isRight = isRight && !hasLeftHole(*element.surface, path.contacts[e].passage, passage);
-        else if (thread)
-            isRight = isRight && passage.count == thread->passages;
+        if (rule.counts.empty())
+            isRight = isRight && !hasLeftHole(*problem.getElement(e).surface, path.contacts[e].passage, passage);
+        else if (rule.counts[e] != PassageRule::kAny)
+            isRight = isRight && passage.count == rule.counts[e];
     });
     return isRight;
 }

@@ -1,5 +1,8 @@
 #pragma once
 /** How often a path goes through the holes of its obstacles: whether that is right, and what is kept of it. */
+#include <limits>
+#include <vector>
+
 #include "tautline/paths/path_problem.h"
 #include "tautline/paths/path_solution.h"
 
@@ -17,10 +20,14 @@ HolePassage calcHolePassage(const Surface& surface, const Pose& X_GS, const Obst
 by the straight ways of their ends, are linked with the ring. False where the portions are not comparable. */
 bool hasLeftHole(const Surface& surface, const HolePassage& before, const HolePassage& after);
 
-/** What says how often: the path that this one was continued from, or the hints of the problem. */
-enum class PassageRule { AsBefore, AsHinted };
+/** How often a path has to go through each hole, along +z of S less against it. */
+struct PassageRule {
+    static constexpr int kAny = std::numeric_limits<int>::min();
+    std::vector<int> counts;  ///< by element; empty: as the path that this one was continued from
+};
 
-bool hasRightPassages(const PathProblem& problem, const PathPose& pose, PassageRule rule, const PathSolution& path);
+bool hasRightPassages(const PathProblem& problem, const PathPose& pose, const PassageRule& rule,
+                      const PathSolution& path);
 
 /** Notes the passages through holes, and which were lost since the path that this one was continued from. Those of a
 path that did not converge, or has left the hole, are no course to keep: the ones before them stay. */

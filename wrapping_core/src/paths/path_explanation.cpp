@@ -51,7 +51,7 @@ std::string describeEndInside(const PathProblem& problem, const PathPose& pose, 
         while (!problem.getElement(before).isPoint() || !pose.hasElement(before)) --before;
         while (!problem.getElement(after).isPoint() || !pose.hasElement(after)) ++after;
         const auto calcHeight = [&](int point) {
-            return surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
+            return surface.calcHeightOverDomain(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
         };
         const bool isBefore = calcHeight(before) <= calcHeight(after);
         return "the point " + quoteName(problem, isBefore ? before : after) + " is inside " + quoteName(problem, e) +
@@ -91,7 +91,7 @@ StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const 
         Vec3 N_S;
         return std::any_of(arc_S.begin(), arc_S.end(), [&](const Vec3& p_S) {
             const Vec3 p_G = pose.X_GE[e] * p_S;
-            return surface.calcHeight(pose.X_GE[other].shiftBack(p_G), N_S) < kOverlap * surface.getSize();
+            return surface.calcHeightOverDomain(pose.X_GE[other].shiftBack(p_G), N_S) < kOverlap * surface.getSize();
         });
     };
     for (int e = 0; e < problem.getNumElements(); ++e) {
@@ -107,6 +107,8 @@ StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const 
 }
 
 std::string describe(const StringFault& fault, const PathProblem& problem) {
+    if (fault.kind == StringFault::Kind::Edge)
+        return "the string catches on the edge of the domain of " + quoteName(problem, fault.element);
     if (fault.kind == StringFault::Kind::Groove)
         return "the string lies in the groove between " + quoteName(problem, fault.element) + " and " +
                quoteName(problem, fault.other) + ", where no smooth path is";
@@ -150,6 +152,8 @@ std::string explainNotMinimum(const PathProblem& problem, const PathPose& pose, 
                               double shortestArc) {
     for (int e = 0; e < problem.getNumElements(); ++e)
         if (path.contacts[e].hasLeftHole) return "the path has left the hole of " + quoteName(problem, e);
+    if (path.status == PathStatus::LeftDomain && path.fault.kind == StringFault::Kind::Edge)
+        return describe(path.fault, problem);
     const PathVerification verification = verifyPath(problem, pose, path, shortestArc);
     if (verification.isMinimum()) return describe(verification, problem);
     const Vec3& place = verification.place_G;
@@ -169,7 +173,7 @@ std::string explainStatus(const PathProblem& problem, const PathPose& pose, cons
                           double shortestArc) {
     switch (path.status) {
         case PathStatus::Solved:
-            return "a local minimum";
+            return path.followsHints ? "a local minimum" : "a local minimum, but not where the hints lead";
         case PathStatus::EndInside:
             return describeEndInside(problem, pose, path);
         case PathStatus::NotConverged:

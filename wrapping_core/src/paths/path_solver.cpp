@@ -115,9 +115,9 @@ bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, Path
     const bool isContinued = !path.isEmpty();
     if (!isContinued) path.contacts.assign(problem.getNumElements(), ObstacleContact());
     switchOffEnclosing(problem, pose, path);
-    if (!m_options.allowsColdStart) return search.findMinimum(problem, pose, PassageRule::AsBefore, path);
+    if (!m_options.allowsColdStart) return search.findMinimum(problem, pose, PassageRule(), path);
     m_workspace->previous.contacts = path.contacts;
-    return (isContinued && (search.findMinimum(problem, pose, PassageRule::AsBefore, path) ||
+    return (isContinued && (search.findMinimum(problem, pose, PassageRule(), path) ||
                             coldSearch.findPathAlong(problem, pose, m_workspace->previous, path))) ||
            coldSearch.findPathFromHints(problem, pose, path);
 }
@@ -141,7 +141,7 @@ void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& 
     for (ObstacleContact& contact : path.contacts) contact.isSwitchedOff = false;
     visitStrandEnds(problem, pose, [&](int point, int e) {
         const Surface& surface = *problem.getElement(e).surface;
-        const double height = surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
+        const double height = surface.calcHeightOverDomain(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
         if (height < kContactTolerance * surface.getSize()) path.contacts[e].isSwitchedOff = true;
     });
 }
@@ -155,6 +155,10 @@ void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool i
         if (!problem.getElement(e).isPoint() && pose.hasElement(e) && path.contacts[e].isSwitchedOff)
             path.status = PathStatus::EndInside;
     if (isFound) return;
+    if (path.fault.kind == StringFault::Kind::Edge) {
+        path.status = PathStatus::LeftDomain;
+        return;
+    }
     if (!isConverged) {
         path.status = PathStatus::NotConverged;
         return;

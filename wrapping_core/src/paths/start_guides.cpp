@@ -81,24 +81,36 @@ struct TubePoints {
     }
 };
 
-/** Through the hole each time, around the tube between two passages, and around the outside where an end is on the
-wrong side of the ring. */
+/** Through the hole each time and around the tube between two passages; once more around it where an end is on the
+wrong side of the ring. All in half planes, so that no step from one point to the next cuts through the tube or the
+hole. */
 void guide(const Surface& surface, const ThreadHole& hint, const Chord& chord, std::vector<Vec3>& guides_S) {
+    const int count = std::abs(hint.passages);
     const bool isUpward = hint.passages >= 0;
-    const TubePoints tube(surface, calcAzimuth(chord.A_S));
-    if (hint.passages == 0) {
-        if (surface.countHoleCrossings(chord.A_S, chord.B_S) != 0) guides_S.push_back(tube.outer);
+    const TubePoints atA(surface, calcAzimuth(chord.A_S)), atB(surface, calcAzimuth(chord.B_S));
+    if (count == 0) {
+        if (surface.countHoleCrossings(chord.A_S, chord.B_S) != 0) guides_S.push_back(atA.outer);
         return;
     }
-    if ((chord.A_S.z() > 0) == isUpward) guides_S.push_back(tube.outer);
-    guides_S.push_back(std::abs(hint.passages) == 1 ? Vec3(Vec3::Zero()) : tube.inner);
-    for (int i = 1; i < std::abs(hint.passages); ++i) {
+    const auto goRound = [&](const TubePoints& tube) {
         const Vec3 &leave = isUpward ? tube.top : tube.bottom, &enter = isUpward ? tube.bottom : tube.top;
-        guides_S.insert(guides_S.end(), {leave, tube.outer, enter, tube.inner});
+        guides_S.insert(guides_S.end(), {leave, tube.outer, enter});
+    };
+    const Vec3 through = count == 1 ? Vec3(Vec3::Zero()) : atA.inner;
+    if ((chord.A_S.z() > 0) == isUpward) goRound(atA);
+    guides_S.push_back(through);
+    for (int i = 1; i < count; ++i) {
+        goRound(atA);
+        guides_S.push_back(through);
     }
-    if ((chord.B_S.z() < 0) == isUpward)
-        guides_S.push_back(
-            surface.findSurfacePoint(makeCylindrical(kFar * surface.getSize(), calcAzimuth(chord.B_S), 0)).p);
+    if ((chord.B_S.z() < 0) == isUpward) goRound(atB);
+}
+
+int countAskedPassages(const Surface& surface, const StartHint& hint, const Chord& chord) {
+    if (const auto* thread = std::get_if<ThreadHole>(&hint)) return thread->passages;
+    if (std::holds_alternative<std::monostate>(hint) && hasHole(surface))
+        return surface.countHoleCrossings(chord.A_S, chord.B_S);
+    return PassageRule::kAny;
 }
 
 /** The next point that the string is sure to pass: a fixed point or a hinted one. */
@@ -114,32 +126,36 @@ Vec3 findNextKnown(const PathProblem& problem, const PathPose& pose, int element
 
 }  // namespace
 
-StartGuides calcHintGuides(const PathProblem& problem, const PathPose& pose) {
-    StartGuides guides(problem.getNumElements());
+StartCourse calcHintedCourse(const PathProblem& problem, const PathPose& pose) {
+    const int n = problem.getNumElements();
+    StartCourse course{StartGuides(n), PassageRule{std::vector<int>(n, PassageRule::kAny)}};
     Vec3 last_G = Vec3::Zero();
-    for (int e = 0; e < problem.getNumElements(); ++e) {
+    for (int e = 0; e < n; ++e) {
         if (!pose.hasElement(e)) continue;
         const PathElement& element = problem.getElement(e);
         const Pose& X_GE = pose.X_GE[e];
+        std::vector<Vec3>& guides = course.guides[e];
         if (element.isPoint()) {
-            guides[e] = {X_GE.p};
+            guides = {X_GE.p};
         } else {
             const Chord chord{X_GE.shiftBack(last_G), X_GE.shiftBack(findNextKnown(problem, pose, e))};
-            std::visit([&](const auto& hint) { guide(*element.surface, hint, chord, guides[e]); }, element.hint);
-            for (Vec3& p : guides[e]) p = X_GE * p;
+            std::visit([&](const auto& hint) { guide(*element.surface, hint, chord, guides); }, element.hint);
+            for (Vec3& p : guides) p = X_GE * p;
+            course.passages.counts[e] = countAskedPassages(*element.surface, element.hint, chord);
         }
-        if (!guides[e].empty()) last_G = guides[e].back();
+        if (!guides.empty()) last_G = guides.back();
     }
-    return guides;
+    return course;
 }
 
-StartGuides calcPreviousGuides(const PathProblem& problem, const PathPose& pose, const PathSolution& previous) {
-    StartGuides guides(problem.getNumElements());
+StartCourse calcPreviousCourse(const PathProblem& problem, const PathPose& pose, const PathSolution& previous) {
+    StartCourse course;
+    course.guides.resize(problem.getNumElements());
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (!pose.hasElement(e)) continue;
         const PathElement& element = problem.getElement(e);
         const ObstacleContact& contact = previous.contacts[e];
-        std::vector<Vec3>& points = guides[e];
+        std::vector<Vec3>& points = course.guides[e];
         if (element.isPoint())
             points = {Vec3::Zero()};
         else if (contact.isTouched && contact.start.length > 0)
@@ -152,7 +168,7 @@ StartGuides calcPreviousGuides(const PathProblem& problem, const PathPose& pose,
         points.erase(std::remove_if(points.begin(), points.end(), [](const Vec3& p) { return !p.allFinite(); }),
                      points.end());
     }
-    return guides;
+    return course;
 }
 
 Vec3 calcOppositeGuide(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int element) {

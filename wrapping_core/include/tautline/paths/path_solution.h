@@ -9,9 +9,9 @@ namespace tautline {
 enum class PathStatus {
     Solved,        ///< max |eps| <= tolerance and all conditions of PathVerification hold
     NotMinimum,    ///< max |eps| <= tolerance, but the path is not a local minimum (pressure, tangent, conjugate point)
-    LeftDomain,    ///< a contact lies outside its surface's domain
-    EndInside,     ///< a fixed point lies below the surface of an obstacle of its strand by more than d_tol; that
-                   ///< obstacle is switched off
+    LeftDomain,    ///< a contact lies outside its surface's domain, or the string catches on the edge of one
+    EndInside,     ///< a fixed point lies deeper than 1e-7 sizes below the surface of an obstacle of its strand (nearer
+                   ///< ones count as lying on it); that obstacle is switched off
     NotConverged,  ///< max |eps| > tolerance after the allowed iterations; the best path met is returned
 };
 
@@ -53,6 +53,7 @@ struct StraightSegment {
 struct StringFault {
     enum class Kind {
         None,
+        Edge,         ///< it catches on the edge of a surface's domain
         Groove,       ///< it lies in the groove where two surfaces meet: a kink
         TwoContacts,  ///< it touches one surface, leaves it, and touches it again
         Sliding,      ///< it has not come to rest: it slides so slowly that it is next to a neutral course
@@ -67,11 +68,12 @@ struct StringFault {
 problem (entries of points are unused) and is what a later solve starts from. */
 struct PathSolution {
     PathStatus status = PathStatus::NotConverged;
-    double length = kNaN;     ///< straight segments and arcs [m]
-    double pathError = kNaN;  ///< max |eps| (thesis Eqn. 4.3), dimensionless
-    int iterations = 0;       ///< Newton iterations of this solve
-    int shots = 0;            ///< geodesics shot in this solve
-    bool wasCold = false;     ///< the start was found anew (elastic string), not continued
+    double length = kNaN;      ///< straight segments and arcs [m]
+    double pathError = kNaN;   ///< max |eps| (thesis Eqn. 4.3), dimensionless
+    int iterations = 0;        ///< Newton iterations of this solve
+    int shots = 0;             ///< geodesics shot in this solve
+    bool followsHints = true;  ///< false: no minimum was found where the hints lead when it was last laid anew
+    bool wasCold = false;      ///< the start was found anew (elastic string), not continued
     std::vector<ObstacleContact> contacts;
     std::vector<StraightSegment> segments;
     StringFault fault;                 ///< where the elastic string led to no solution: why

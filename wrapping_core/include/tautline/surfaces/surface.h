@@ -45,6 +45,10 @@ public:
     @param N_S   unit outward direction of steepest ascent at p_S */
     virtual double calcHeight(const Vec3& p_S, Vec3& N_S) const = 0;
 
+    /** Height of a point over what there is of the surface: as calcHeight(), but infinite below an extension beyond the
+    edge of its domain, which iterates may use and which holds no string. */
+    double calcHeightOverDomain(const Vec3& p_S, Vec3& N_S) const;
+
     /** A surface point near p_S: the foot of the steepest descent, the nearest point if p_S is close. */
     virtual SurfacePoint findSurfacePoint(const Vec3& p_S) const = 0;
 
