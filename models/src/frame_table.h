@@ -15,8 +15,7 @@ struct BodyFrame {
     Pose X_BF;
 };
 
-/** The bodies and offset frames of a model by their absolute paths, such as /jointset/knee/femur.
- */
+/** The bodies and offset frames of a model by their absolute paths, such as /jointset/knee/femur. */
 class FrameTable {
 public:
     void addBody(const std::string& name);

@@ -9,8 +9,7 @@
 namespace tautline::models {
 namespace {
 
-/** Equal abscissae are kept this far apart, small beside any knot spacing of a joint or a muscle.
- */
+/** Equal abscissae are kept this far apart, small beside any knot spacing of a joint or a muscle. */
 constexpr double kLeastKnotSpacing = 1e-7;
 
 void requireFinite(const std::vector<double>& numbers) {

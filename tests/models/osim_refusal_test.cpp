@@ -1,5 +1,4 @@
-/** Every refusal by its message: short edits of one good model, and the files of models/rejected.
- */
+/** Every refusal by its message: short edits of one good model, and the files of models/rejected. */
 #include <filesystem>
 #include <fstream>
 

@@ -66,8 +66,7 @@ public:
     the system. */
     SimTK::State makeDefaultState();
 
-    /** Moment arm -dl/dq of a muscle about a coordinate [m], coupled coordinates moving along. Needs Stage::Position.
-     */
+    /** Moment arm -dl/dq of a muscle about a coordinate [m], coupled ones moving along. Needs Stage::Position. */
     double calcMomentArm(const SimTK::State& state, const MuscleSlot& muscle, const std::string& coordinate) const {
         return calcMomentArm(state, muscle.cable, coordinate);
     }

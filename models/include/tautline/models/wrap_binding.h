@@ -7,8 +7,7 @@
 namespace tautline::models {
 
 /** A wrap object of a path, bound to one of its segments. A model file lets a path wrap anywhere between the points of
-a range; over a motion it does so on one and the same segment, and an obstacle has its place in the order of the path.
-*/
+a range; over a motion it does so on one segment, and an obstacle has its place in the order of the path. */
 struct BoundWrap {
     /** Index into MusclePath::wraps. */
     std::size_t wrap = 0;
