@@ -1,4 +1,6 @@
-/** Draws the README's figure: a path over a cylinder, a torus and an ellipsoid, as SVG on standard output. */
+/** Draws the README's figure: a path over a cylinder, through a torus and over an ellipsoid, as SVG on standard output.
+Facets and pieces of the path are painted from the back to the front, so that what is nearer hides what is behind. */
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <vector>
@@ -15,42 +17,69 @@ using namespace tautline;
 
 /** Orthographic view: x to the right, y up, z towards the viewer, after turning the scene. */
 struct View {
-    Mat3 R = (Eigen::AngleAxisd(0.35, Vec3::UnitX()) * Eigen::AngleAxisd(-0.5, Vec3::UnitY())).toRotationMatrix();
-    double scale = 110, x0 = 90, y0 = 210;
+    Mat3 R = (Eigen::AngleAxisd(0.35, Vec3::UnitX()) * Eigen::AngleAxisd(0.55, Vec3::UnitY())).toRotationMatrix();
+    double scale = 110, x0 = 118, y0 = 276;
 
     double x(const Vec3& p) const { return x0 + scale * (R * p).x(); }
     double y(const Vec3& p) const { return y0 - scale * (R * p).y(); }
-    bool faces(const Vec3& normal) const { return (R * normal).z() > 0; }
+    double calcNearness(const Vec3& p) const { return (R * p).z(); }
 };
 
-void drawLine(const View& view, const std::vector<Vec3>& points, const char* style) {
-    std::cout << "<polyline " << style << " points=\"";
-    for (const Vec3& p : points) std::cout << view.x(p) << "," << view.y(p) << " ";
-    std::cout << "\"/>\n";
+/** Something to be painted: a facet, or a piece of the path. */
+struct Shape {
+    std::vector<Vec3> points;
+    double nearness = 0;
+    double brightness = -1;  ///< of a facet, 0 to 1; negative: a piece of the path
+};
+
+/** Facets of a surface given as x(u, v), the darker the more they turn away from the light. */
+template <class Point>
+void addSurface(const View& view, const Surface& surface, const Pose& X_GS, const Point& point, int numU, int numV,
+                std::vector<Shape>& shapes) {
+    const Vec3 light = view.R.transpose() * Vec3(-0.4, 0.7, 0.6).normalized();
+    for (int i = 0; i < numU; ++i)
+        for (int k = 0; k < numV; ++k) {
+            Shape facet;
+            Vec3 middle_S = Vec3::Zero(), N_S;
+            for (const auto& [du, dv] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+                const Vec3 p_S = point(static_cast<double>(i + du) / numU, static_cast<double>(k + dv) / numV);
+                facet.points.push_back(X_GS * p_S);
+                middle_S += p_S / 4;
+            }
+            surface.calcHeight(middle_S, N_S);
+            const double facing = std::abs((X_GS.R * N_S).dot(light));  // what is seen from inside is lit, too
+            facet.nearness = view.calcNearness(X_GS * middle_S), facet.brightness = facing;
+            shapes.push_back(facet);
+        }
 }
 
-/** Coordinate lines of a surface given as x(u, v), the half that faces the viewer. */
-template <class Point>
-void drawSurface(const View& view, const Surface& surface, const Pose& X_GS, const Point& point, double u0, double u1,
-                 double v0, double v1) {
-    constexpr int kLines = 20, kSteps = 60;
-    for (bool alongU : {true, false})
-        for (int i = 0; i <= kLines; ++i) {
-            std::vector<Vec3> run;
-            for (int k = 0; k <= kSteps; ++k) {
-                const double a = static_cast<double>(i) / kLines, b = static_cast<double>(k) / kSteps;
-                const Vec3 p_S = point(u0 + (alongU ? b : a) * (u1 - u0), v0 + (alongU ? a : b) * (v1 - v0));
-                Vec3 N;
-                surface.calcHeight(p_S, N);
-                if (view.faces(X_GS.R * N)) {
-                    run.push_back(X_GS * p_S);
-                } else if (!run.empty()) {
-                    drawLine(view, run, "class=\"surface\"");
-                    run.clear();
-                }
-            }
-            if (!run.empty()) drawLine(view, run, "class=\"surface\"");
+/** Pieces of the path short beside a facet, each a little nearer than it is: it lies on the surfaces. */
+void addPath(const View& view, const std::vector<Vec3>& points, std::vector<Shape>& shapes) {
+    constexpr double kPiece = 0.03, kLift = 0.12;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const Vec3 step = points[i + 1] - points[i];
+        const int count = std::max(1, static_cast<int>(step.norm() / kPiece));
+        for (int k = 0; k < count; ++k) {
+            Shape piece;
+            piece.points = {points[i] + k * step / count, points[i] + (k + 1) * step / count};
+            piece.nearness = view.calcNearness((piece.points[0] + piece.points[1]) / 2) + kLift;
+            shapes.push_back(piece);
         }
+    }
+}
+
+void paint(const View& view, const Shape& shape) {
+    const bool isFacet = shape.brightness >= 0;
+    std::cout << (isFacet ? "<polygon" : "<polyline class=\"path\"") << " points=\"";
+    for (const Vec3& p : shape.points) std::cout << view.x(p) << "," << view.y(p) << " ";
+    std::cout << "\"";
+    if (isFacet) {
+        const auto mix = [&](int dark, int bright) {
+            return dark + static_cast<int>(shape.brightness * (bright - dark));
+        };
+        std::cout << " fill=\"rgb(" << mix(120, 226) << "," << mix(152, 236) << "," << mix(196, 248) << ")\"";
+    }
+    std::cout << "/>\n";
 }
 
 }  // namespace
@@ -64,39 +93,47 @@ int main() {
     PathProblem problem;
     problem.addPoint("origin");
     problem.addObstacle("cylinder", cylinder, Vec3(0, 0.6, 0));
-    problem.addObstacle("torus", torus, Vec3(0.62, 0, 0));
+    problem.addObstacle("torus", torus, ThreadHole{1});
     problem.addObstacle("ellipsoid", ellipsoid, Vec3(0, 0.55, 0));
     problem.addPoint("insertion");
     const Mat3 ringAcross = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
     PathPose pose;
-    pose.X_GE = {Pose(Vec3(-0.4, -0.7, 0.5)), Pose(Vec3(0.8, 0.0, 0)), Pose(ringAcross, Vec3(2.6, 0.9, 0.1)),
-                 Pose(Vec3(4.4, 0.1, 0)), Pose(Vec3(5.8, -0.8, -0.3))};
+    pose.X_GE = {Pose(Vec3(-0.6, -0.8, 0.2)), Pose(Vec3(0.8, 0.0, 0)), Pose(ringAcross, Vec3(2.6, 0.9, 0.1)),
+                 Pose(Vec3(4.4, -0.9, 0.1)), Pose(Vec3(5.9, -1.5, 0.1))};
     const PathSolution path = solvePath(problem, pose);
     std::cerr << "status " << getName(path.status) << ", length " << path.length << "\n";
 
-    std::cout << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 400\" width=\"760\" height=\"400\">\n"
-                 "<style>.surface{fill:none;stroke:#7a9cc6;stroke-width:0.6} .path{fill:none;stroke:#c0392b;"
-                 "stroke-width:3.5;stroke-linejoin:round;stroke-linecap:round} .end{fill:#222}</style>\n"
-                 "<rect width=\"760\" height=\"400\" fill=\"white\"/>\n";
-    drawSurface(
-        view, *cylinder, pose.X_GE[1], [](double u, double v) { return Vec3(0.6 * std::cos(u), 0.6 * std::sin(u), v); },
-        0, 2 * kPi, -1, 1);
-    drawSurface(
+    std::vector<Shape> shapes;
+    addSurface(
+        view, *cylinder, pose.X_GE[1],
+        [](double u, double v) { return Vec3(0.6 * std::cos(2 * kPi * u), 0.6 * std::sin(2 * kPi * u), 2 * v - 1); },
+        36, 12, shapes);
+    addSurface(
         view, *torus, pose.X_GE[2],
         [](double u, double v) {
-            const double rho = 0.9 + 0.3 * std::cos(v);
-            return Vec3(rho * std::cos(u), rho * std::sin(u), 0.3 * std::sin(v));
+            const double rho = 0.9 + 0.3 * std::cos(2 * kPi * v);
+            return Vec3(rho * std::cos(2 * kPi * u), rho * std::sin(2 * kPi * u), 0.3 * std::sin(2 * kPi * v));
         },
-        0, 2 * kPi, 0, 2 * kPi);
-    drawSurface(
+        48, 20, shapes);
+    addSurface(
         view, *ellipsoid, pose.X_GE[3],
         [](double u, double v) {
-            return Vec3(0.9 * std::cos(v) * std::cos(u), 0.55 * std::sin(v), 0.7 * std::cos(v) * std::sin(u));
+            const double latitude = kPi * (v - 0.5);
+            return Vec3(0.9 * std::cos(latitude) * std::cos(2 * kPi * u), 0.55 * std::sin(latitude),
+                        0.7 * std::cos(latitude) * std::sin(2 * kPi * u));
         },
-        0, 2 * kPi, -kPi / 2, kPi / 2);
+        36, 16, shapes);
     std::vector<Vec3> points;
     calcDrawingPoints(path, problem, pose, 0.05, points);
-    drawLine(view, points, "class=\"path\"");
+    addPath(view, points, shapes);
+    std::stable_sort(shapes.begin(), shapes.end(),
+                     [](const Shape& a, const Shape& b) { return a.nearness < b.nearness; });
+
+    std::cout << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 400\" width=\"760\" height=\"400\">\n"
+                 "<style>polygon{stroke:#7a9cc6;stroke-width:0.5;stroke-linejoin:round} .path{fill:none;"
+                 "stroke:#c0392b;stroke-width:3.5;stroke-linecap:round} .end{fill:#222}</style>\n"
+                 "<rect width=\"760\" height=\"400\" fill=\"white\"/>\n";
+    for (const Shape& shape : shapes) paint(view, shape);
     for (const Vec3& p : {points.front(), points.back()})
         std::cout << "<circle class=\"end\" cx=\"" << view.x(p) << "\" cy=\"" << view.y(p) << "\" r=\"5\"/>\n";
     std::cout << "</svg>\n";

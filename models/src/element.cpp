@@ -26,11 +26,8 @@ std::string Element::describeField() const {
 std::string Element::getText() const {
     // A comment splits a text into several nodes.
     std::string text;
-    for (pugi::xml_node part : m_node.children()) {
-        if (part.type() == pugi::node_pcdata || part.type() == pugi::node_cdata) {
-            text += part.value();
-        }
-    }
+    for (pugi::xml_node part : m_node.children())
+        if (part.type() == pugi::node_pcdata || part.type() == pugi::node_cdata) text += part.value();
     const char* blanks = " \t\r\n";
     const auto first = text.find_first_not_of(blanks);
     if (first == std::string::npos) return {};
@@ -70,9 +67,8 @@ Element Element::findAny(const std::vector<std::string>& tags) {
 
 std::vector<Element> Element::getChildren() const {
     std::vector<Element> children;
-    for (pugi::xml_node child : m_node.children()) {
+    for (pugi::xml_node child : m_node.children())
         if (child.type() == pugi::node_element) children.emplace_back(*m_reading, child);
-    }
     return children;
 }
 
@@ -114,7 +110,7 @@ double Element::getNumber() const {
     return getNumbers(1)[0];
 }
 
-Triple Element::getTriple() const {
+Vec3 Element::getVec3() const {
     const std::vector<double> numbers = getNumbers(3);
     return {numbers[0], numbers[1], numbers[2]};
 }
@@ -137,9 +133,9 @@ std::optional<double> Element::findNumber(const std::string& tag) {
     return child ? std::optional<double>(child.getNumber()) : std::nullopt;
 }
 
-Triple Element::getTripleOr(const std::string& tag, const Triple& fallback) {
+Vec3 Element::getVec3Or(const std::string& tag, const Vec3& fallback) {
     const Element child = find(tag);
-    return child ? child.getTriple() : fallback;
+    return child ? child.getVec3() : fallback;
 }
 
 bool Element::getBoolOr(const std::string& tag, bool fallback) {
@@ -150,18 +146,14 @@ bool Element::getBoolOr(const std::string& tag, bool fallback) {
 double Element::requirePositive(const std::string& tag) {
     const Element child = require(tag);
     const double number = child.getNumber();
-    if (!(number > 0.0)) {
-        child.fail(tag + " of " + describe() + " is " + child.getText() + ", not positive");
-    }
+    if (!(number > 0.0)) child.fail(tag + " of " + describe() + " is " + child.getText() + ", not positive");
     return number;
 }
 
 void Element::skip(const std::vector<std::string>& tags, const std::string& reason) {
     for (const std::string& tag : tags) {
         m_known.insert(tag);
-        for (pugi::xml_node child : m_node.children(tag.c_str())) {
-            Element(*m_reading, child).skipThis(getTag(), reason);
-        }
+        for (pugi::xml_node child : m_node.children(tag.c_str())) Element(*m_reading, child).skipThis(getTag(), reason);
     }
 }
 
@@ -171,11 +163,10 @@ void Element::skipThis(const std::string& owner, const std::string& reason) cons
     const auto entry = std::find_if(skipped.begin(), skipped.end(), [&](const SkippedElements& elements) {
         return elements.element == tag && elements.owner == owner && elements.reason == reason;
     });
-    if (entry != skipped.end()) {
+    if (entry != skipped.end())
         ++entry->count;
-    } else {
+    else
         skipped.push_back({tag, owner, reason, findLine(), 1});
-    }
 }
 
 void Element::refuseUnknown() const {

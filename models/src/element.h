@@ -16,11 +16,9 @@ struct Reading {
     ModelDescription& model;
 };
 
-/**
- * One XML element being read. Every child that is asked for counts as known; refuseUnknown() then
- * refuses the children that nobody asked for, so nothing can be overlooked in silence. Each getter
- * refuses a missing, malformed or non-finite value with the line, the owner and the value.
- */
+/** One XML element being read. Every child that is asked for counts as known; refuseUnknown() then refuses the children
+that nobody asked for, so nothing can be overlooked in silence. Each getter refuses a missing, malformed or non-finite
+value with the line, the owner and the value. */
 class Element {
 public:
     Element(Reading& reading, pugi::xml_node node) : m_reading(&reading), m_node(node) {}
@@ -53,13 +51,13 @@ public:
     double getNumber() const;
     std::vector<double> getNumbers() const;
     std::vector<double> getNumbers(std::size_t count) const;
-    Triple getTriple() const;
+    Vec3 getVec3() const;
     bool getBool() const;
 
     double requireNumber(const std::string& tag) { return require(tag).getNumber(); }
     double getNumberOr(const std::string& tag, double fallback);
     std::optional<double> findNumber(const std::string& tag);
-    Triple getTripleOr(const std::string& tag, const Triple& fallback);
+    Vec3 getVec3Or(const std::string& tag, const Vec3& fallback);
     bool getBoolOr(const std::string& tag, bool fallback);
     /** A number that must be greater than zero. */
     double requirePositive(const std::string& tag);

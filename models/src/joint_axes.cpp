@@ -1,9 +1,8 @@
 #include "joint_axes.h"
 
-#include "tautline/models/model_builder.h"
+#include "tautline/simbody/conversions.h"
 
 namespace tautline::models {
-
 namespace {
 
 /** No motion: turns about x, y, z, then shifts along x, y, z. */
@@ -26,16 +25,15 @@ JointAxes drive(std::initializer_list<std::size_t> axes) {
 }
 
 int findIndex(const Joint& joint, const std::string& coordinate) {
-    for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
+    for (std::size_t i = 0; i < joint.coordinates.size(); ++i)
         if (joint.coordinates[i].name == coordinate) return static_cast<int>(i);
-    }
     return -1;
 }
 
 JointAxes makeCustomAxes(const Joint& joint) {
     JointAxes custom;
     for (std::size_t i = 0; i < 6; ++i) {
-        custom.axes[i] = toVec3(joint.axes[i].axis).normalize();
+        custom.axes[i] = toSimTK(joint.axes[i].axis).normalize();
         custom.functions[i] = joint.axes[i].function;
         custom.coordinates[i] = findIndex(joint, joint.axes[i].coordinate);
     }
@@ -73,9 +71,7 @@ SimTK::Transform calcFixedTransform(const JointAxes& axes) {
         const SimTK::UnitVec3 axis(axes.axes[i]);
         X_FM.updR() = X_FM.R() * SimTK::Rotation(axes.functions[i].calcValue(0.0), axis);
     }
-    for (std::size_t i = 3; i < 6; ++i) {
-        X_FM.updP() += axes.functions[i].calcValue(0.0) * axes.axes[i];
-    }
+    for (std::size_t i = 3; i < 6; ++i) X_FM.updP() += axes.functions[i].calcValue(0.0) * axes.axes[i];
     return X_FM;
 }
 

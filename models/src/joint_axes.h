@@ -5,11 +5,9 @@
 
 namespace tautline::models {
 
-/**
- * The motion of any joint written as that of a custom joint, from the frame F on the parent to the
- * frame M on the child: R_FM = R(a0,f0) R(a1,f1) R(a2,f2), each axis carried along by those before
- * it, and p_FM = f3 a3 + f4 a4 + f5 a5 in F.
- */
+/** The motion of any joint written as that of a custom joint, from the frame F on the parent to the frame M on the
+child: R_FM = R(a0,f0) R(a1,f1) R(a2,f2), each axis carried along by those before it, and p_FM = f3 a3 + f4 a4 + f5 a5
+in F. */
 struct JointAxes {
     /** Unit vectors. */
     std::array<SimTK::Vec3, 6> axes;

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "multibody_plan.h"
+#include "tautline/simbody/conversions.h"
 
 namespace tautline::models {
-
 namespace {
 
 using SimTK::MobilizedBody;
@@ -82,7 +82,7 @@ private:
 };
 
 SimTK::MassProperties makeMassProperties(const Body& body) {
-    const SimTK::Vec3 center = toVec3(body.massCenter);
+    const SimTK::Vec3 center = toSimTK(body.massCenter);
     const auto& I = body.inertia;
     const SimTK::Inertia central(I[0], I[1], I[2], I[3], I[4], I[5]);
     return {body.mass, center, central.shiftFromMassCenter(center, body.mass)};
@@ -120,15 +120,10 @@ MobilizedBody addMobilizer(const PlannedJoint& planned, MobilizedBody& inboard) 
     const SimTK::Transform& inboardFrame = planned.reversed ? X_CM : X_PF;
     const SimTK::Transform& outboardFrame = planned.reversed ? X_PF : X_CM;
     const auto direction = planned.reversed ? MobilizedBody::Reverse : MobilizedBody::Forward;
-    if (joint.coordinates.empty()) {
-        return MobilizedBody::Weld(inboard, inboardFrame, body, outboardFrame);
-    }
-    if (joint.type == JointType::Pin) {
-        return MobilizedBody::Pin(inboard, inboardFrame, body, outboardFrame, direction);
-    }
-    if (joint.type == JointType::Slider) {
+    if (joint.coordinates.empty()) return MobilizedBody::Weld(inboard, inboardFrame, body, outboardFrame);
+    if (joint.type == JointType::Pin) return MobilizedBody::Pin(inboard, inboardFrame, body, outboardFrame, direction);
+    if (joint.type == JointType::Slider)
         return MobilizedBody::Slider(inboard, inboardFrame, body, outboardFrame, direction);
-    }
     return addFunctionBased(planned, inboard, inboardFrame, body, outboardFrame, direction);
 }
 
@@ -139,7 +134,7 @@ class MultibodyAssembly {
 public:
     explicit MultibodyAssembly(SimTK::SimbodyMatterSubsystem& matter) : m_matter(matter) {
         m_built.m_matter = &matter;
-        m_built.m_bodies[groundName] = matter.getGround().getMobilizedBodyIndex();
+        m_built.m_bodies[kGroundName] = matter.getGround().getMobilizedBodyIndex();
     }
 
     void addJoint(const PlannedJoint& planned) {
@@ -148,9 +143,8 @@ public:
         MobilizedBody& inboard = m_matter.updMobilizedBody(m_built.m_bodies.at(inboardName));
         const SimTK::MobilizedBodyIndex index = addMobilizer(planned, inboard).getMobilizedBodyIndex();
         m_built.m_bodies[planned.outboardBody->name] = index;
-        for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
+        for (std::size_t i = 0; i < joint.coordinates.size(); ++i)
             addCoordinate(joint.coordinates[i], index, static_cast<int>(i), isDriven(joint));
-        }
         if (isDriven(joint)) driveMobilizer(joint, index);
     }
 
@@ -169,16 +163,13 @@ public:
     void addConstraint(const PointConstraint& points) {
         MobilizedBody& body1 = m_matter.updMobilizedBody(m_built.getBodyIndex(points.body1));
         MobilizedBody& body2 = m_matter.updMobilizedBody(m_built.getBodyIndex(points.body2));
-        SimTK::Constraint::Ball(body1, toVec3(points.location1), body2, toVec3(points.location2));
+        SimTK::Constraint::Ball(body1, toSimTK(points.location1), body2, toSimTK(points.location2));
     }
 
     /** The names in the order of the file, not of the tree. */
     BuiltModel finish(const ModelDescription& model) {
-        for (const Joint& joint : model.joints) {
-            for (const Coordinate& coordinate : joint.coordinates) {
-                m_built.m_coordinateNames.push_back(coordinate.name);
-            }
-        }
+        for (const Joint& joint : model.joints)
+            for (const Coordinate& coordinate : joint.coordinates) m_built.m_coordinateNames.push_back(coordinate.name);
         return m_built;
     }
 
@@ -221,25 +212,14 @@ BuiltModel buildMultibody(const ModelDescription& model, SimTK::SimbodyMatterSub
     const std::vector<PlannedJoint> plan = planMultibody(model);
     MultibodyAssembly assembly(matter);
     for (const PlannedJoint& planned : plan) assembly.addJoint(planned);
-    for (const ModelConstraint& constraint : model.constraints) {
+    for (const ModelConstraint& constraint : model.constraints)
         std::visit([&](const auto& known) { assembly.addConstraint(known); }, constraint);
-    }
     return assembly.finish(model);
 }
 
 SimTK::Force::Gravity addGravity(const ModelDescription& model, SimTK::GeneralForceSubsystem& forces,
                                  const SimTK::SimbodyMatterSubsystem& matter) {
-    return SimTK::Force::Gravity(forces, matter, toVec3(model.gravity));
-}
-
-SimTK::Transform toTransform(const RigidOffset& offset) {
-    const auto& r = offset.rotation;
-    const SimTK::Mat33 matrix(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]);
-    return {SimTK::Rotation(matrix, true), toVec3(offset.translation)};
-}
-
-SimTK::Vec3 toVec3(const Triple& triple) {
-    return {triple[0], triple[1], triple[2]};
+    return SimTK::Force::Gravity(forces, matter, toSimTK(model.gravity));
 }
 
 }  // namespace tautline::models

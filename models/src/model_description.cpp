@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace tautline::models {
-
 namespace {
 
 template <class Item>
@@ -19,9 +18,8 @@ const Body* findBody(const ModelDescription& model, const std::string& name) {
 }
 
 const Coordinate* findCoordinate(const ModelDescription& model, const std::string& name) {
-    for (const Joint& joint : model.joints) {
+    for (const Joint& joint : model.joints)
         if (const Coordinate* found = findByName(joint.coordinates, name)) return found;
-    }
     return nullptr;
 }
 

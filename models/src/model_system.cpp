@@ -5,13 +5,14 @@
 
 #include "tautline/error.h"
 #include "tautline/models/path_points.h"
+#include "tautline/simbody/conversions.h"
+#include "wrap_surface.h"
 
 namespace tautline::models {
-
 namespace {
 
 /** Activation at the start, where the activation dynamics of a file's muscles begin by default. */
-constexpr double defaultActivation = 0.05;
+constexpr double kDefaultActivation = 0.05;
 
 std::string locate(const ModelDescription& description, int line) {
     return description.fileName + ":" + std::to_string(line) + ": ";
@@ -59,7 +60,7 @@ Cable makeCable(CableSubsystem& cables, const ModelDescription& description, con
             throw ModelError(locate(description, end->line) + owner + ": point '" + end->name +
                              "' is an end of the path and conditional, which a simulated path cannot do");
     const auto getStation = [](const PathPoint& end) {
-        return std::holds_alternative<FixedLocation>(end.kind) ? toVec3(end.location) : SimTK::Vec3(0);
+        return std::holds_alternative<FixedLocation>(end.kind) ? toSimTK(end.location) : SimTK::Vec3(0);
     };
     Cable cable(cables, model.getBody(first.body), getStation(first), model.getBody(last.body), getStation(last), name);
     if (const auto* moving = std::get_if<MovingLocation>(&first.kind))
@@ -74,9 +75,9 @@ void addPoint(Cable& cable, const PathPoint& point, const BuiltModel& model) {
     if (const auto* moving = std::get_if<MovingLocation>(&point.kind))
         cable.addMovingPoint(body, makeStation(*moving, model), point.name);
     else if (std::holds_alternative<ConditionalLocation>(point.kind))
-        cable.addConditionalPoint(body, toVec3(point.location), makeCondition(point, model), point.name);
+        cable.addConditionalPoint(body, toSimTK(point.location), makeCondition(point, model), point.name);
     else
-        cable.addViaPoint(body, toVec3(point.location), point.name);
+        cable.addViaPoint(body, toSimTK(point.location), point.name);
 }
 
 }  // namespace
@@ -96,7 +97,7 @@ HillMuscleParameters toHillMuscleParameters(const Muscle& muscle) {
     take(parameters.passiveShape, muscle.passiveShape);
     take(parameters.concentricShape, muscle.velocityShape);
     take(parameters.eccentricForce, muscle.maxLengtheningForce);
-    parameters.defaultActivation = defaultActivation;
+    parameters.defaultActivation = kDefaultActivation;
     return parameters;
 }
 

@@ -7,11 +7,10 @@
 #include "tautline/models/model_error.h"
 
 namespace tautline::models {
-
 namespace {
 
 /** Sine of the angle below which two axes count as parallel; the mobilizer refuses them, too. */
-constexpr double leastAxisAngle = 1e-5;
+constexpr double kLeastAxisAngle = 1e-5;
 
 [[noreturn]] void fail(const ModelDescription& model, int line, const std::string& what) {
     throw ModelError(model.fileName + ":" + std::to_string(line) + ": " + what);
@@ -23,7 +22,7 @@ void checkAxes(const ModelDescription& model, const PlannedJoint& planned) {
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = i + 1; j < (i < 3 ? 3u : 6u); ++j) {
             const SimTK::Vec3 product = planned.axes.axes[i] % planned.axes.axes[j];
-            if (product.norm() < leastAxisAngle) {
+            if (product.norm() < kLeastAxisAngle) {
                 fail(model, planned.joint->axes[j].line,
                      "axes " + std::to_string(i % 3 + 1) + " and " + std::to_string(j % 3 + 1) +
                          (i < 3 ? " of rotation" : " of translation") + " of joint '" + planned.joint->name +
@@ -50,9 +49,8 @@ bool growTree(const ModelDescription& model, std::set<const Joint*>& left, std::
         if (!left.count(&joint)) continue;
         const bool fromParent = reached.count(joint.parentBody) > 0;
         const bool fromChild = reached.count(joint.childBody) > 0;
-        if (fromParent && fromChild) {
+        if (fromParent && fromChild)
             fail(model, joint.line, "joint '" + joint.name + "' closes a loop of bodies, which cannot be built");
-        }
         if (!fromParent && !fromChild) continue;
         plan.push_back(planJoint(model, joint, fromChild));
         reached.insert(plan.back().outboardBody->name);
@@ -62,11 +60,9 @@ bool growTree(const ModelDescription& model, std::set<const Joint*>& left, std::
 }
 
 void checkThatAllBodiesHang(const ModelDescription& model, const std::set<std::string>& reached) {
-    for (const Body& body : model.bodies) {
-        if (!reached.count(body.name)) {
+    for (const Body& body : model.bodies)
+        if (!reached.count(body.name))
             fail(model, body.line, "no joints lead from the ground to body '" + body.name + "'");
-        }
-    }
 }
 
 /** A mobilizer that carries nothing with mass has no acceleration. */
@@ -89,9 +85,7 @@ void requireCoordinate(const ModelDescription& model, int line, const std::strin
 }
 
 void requireBody(const ModelDescription& model, int line, const std::string& name) {
-    if (name != groundName && !findBody(model, name)) {
-        fail(model, line, "there is no body '" + name + "'");
-    }
+    if (name != kGroundName && !findBody(model, name)) fail(model, line, "there is no body '" + name + "'");
 }
 
 /** The reader has checked this; a description may also be made by hand. */
@@ -113,7 +107,7 @@ void checkConstraints(const ModelDescription& model) {
 std::vector<PlannedJoint> planMultibody(const ModelDescription& model) {
     std::set<const Joint*> left;
     for (const Joint& joint : model.joints) left.insert(&joint);
-    std::set<std::string> reached{groundName};
+    std::set<std::string> reached{kGroundName};
     std::vector<PlannedJoint> plan;
     while (growTree(model, left, reached, plan)) {
     }

@@ -14,10 +14,8 @@ struct PlannedJoint {
     JointAxes axes;
 };
 
-/**
- * Orders the joints from the ground outwards and checks that a multibody system can be built.
- * @throws ModelError with the file, the line and the name of what cannot.
- */
+/** Orders the joints from the ground outwards and checks that a multibody system can be built.
+@throws ModelError with the file, the line and the name of what cannot. */
 std::vector<PlannedJoint> planMultibody(const ModelDescription& model);
 
 }  // namespace tautline::models

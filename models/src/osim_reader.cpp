@@ -10,39 +10,34 @@
 #include "read_wrap_objects.h"
 
 namespace tautline::models {
-
 namespace {
 
 /** The last version with joints inside bodies, and those of the present layout that are known. */
-constexpr int lastOldVersion = 30500;
-constexpr int firstNewVersion = 40000;
-constexpr int lastNewVersion = 40600;
+constexpr int kLastOldVersion = 30500;
+constexpr int kFirstNewVersion = 40000;
+constexpr int kLastNewVersion = 40600;
 
-/** Of a model that says nothing about it. */
-constexpr Triple defaultGravity{0.0, -9.80665, 0.0};
+/** Along -y, of a model that says nothing about it [m/s^2]. */
+constexpr double kDefaultGravity = 9.80665;
 
 int readVersion(const Element& document, const std::string& attribute) {
     int version = 0;
     std::istringstream text(attribute);
-    if (!(text >> version) || !text.eof()) {
-        document.fail("the document version '" + attribute + "' is not a number");
-    }
-    if (version > lastNewVersion) {
-        document.fail("document version " + attribute + " is newer than " + std::to_string(lastNewVersion) +
+    if (!(text >> version) || !text.eof()) document.fail("the document version '" + attribute + "' is not a number");
+    if (version > kLastNewVersion) {
+        document.fail("document version " + attribute + " is newer than " + std::to_string(kLastNewVersion) +
                       ", the newest that is known");
     }
-    if (version > lastOldVersion && version < firstNewVersion) {
+    if (version > kLastOldVersion && version < kFirstNewVersion)
         document.fail("document version " + attribute + " is an interim layout that is not read");
-    }
     return version;
 }
 
 void checkUnits(Element& model, const std::string& tag, const std::vector<std::string>& accepted) {
     const Element units = model.find(tag);
     if (!units) return;
-    for (const std::string& name : accepted) {
+    for (const std::string& name : accepted)
         if (units.getText() == name) return;
-    }
     units.fail(tag + " are '" + units.getText() + "' instead of '" + accepted[0] + "'");
 }
 
@@ -50,9 +45,7 @@ void checkUnits(Element& model, const std::string& tag, const std::vector<std::s
 void refuseMembers(Element& model, const std::string& setTag, const std::string& what) {
     Element set = model.find(setTag);
     if (!set) return;
-    for (const Element& member : set.getSetMembers()) {
-        member.fail("unknown " + what + " " + member.describe());
-    }
+    for (const Element& member : set.getSetMembers()) member.fail("unknown " + what + " " + member.describe());
     set.skipThis("Model", "empty");
 }
 
@@ -62,9 +55,7 @@ void collectComponents(Element& model, BodyParts& parts) {
         if (!set) continue;
         const bool isSet = std::string(tag) == "ComponentSet";
         for (const Element& member : isSet ? set.getSetMembers() : set.getChildren()) {
-            if (member.getTag() != "PhysicalOffsetFrame") {
-                member.fail("unknown component " + member.describe());
-            }
+            if (member.getTag() != "PhysicalOffsetFrame") member.fail("unknown component " + member.describe());
             addOffsetFrame(member, isSet ? "/componentset" : "", parts);
         }
     }
@@ -81,7 +72,7 @@ void skipWithoutEffect(Element& model) {
 void readModel(Element& element) {
     ModelDescription& model = element.updReading().model;
     model.name = element.getName();
-    model.gravity = element.getTripleOr("gravity", defaultGravity);
+    model.gravity = element.getVec3Or("gravity", Vec3(0, -kDefaultGravity, 0));
     checkUnits(element, "length_units", {"meters", "m"});
     checkUnits(element, "force_units", {"N", "newtons", "Newtons"});
     BodyParts parts;
@@ -105,9 +96,8 @@ ModelDescription readOsimText(std::string_view text, const std::string& fileName
     model.fileName = fileName;
     Reading reading{source, model};
     Element document(reading, source.getRoot());
-    if (document.getTag() != "OpenSimDocument") {
+    if (document.getTag() != "OpenSimDocument")
         document.fail("the document is a " + document.getTag() + ", not an OpenSimDocument");
-    }
     model.documentVersion = readVersion(document, source.getRoot().attribute("Version").value());
     Element element = document.require("Model");
     document.refuseUnknown();
@@ -119,9 +109,7 @@ ModelDescription readOsimFile(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream text;
     text << stream.rdbuf();
-    if (!stream || std::filesystem::is_directory(file)) {
-        throw ModelError(file.string() + ": the file cannot be read");
-    }
+    if (!stream || std::filesystem::is_directory(file)) throw ModelError(file.string() + ": the file cannot be read");
     return readOsimText(text.str(), file.string());
 }
 

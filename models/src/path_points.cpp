@@ -2,19 +2,20 @@
 
 #include <algorithm>
 
-namespace tautline::models {
+#include "tautline/simbody/conversions.h"
 
+namespace tautline::models {
 namespace {
 
 /** The room at both ends of a conditional point's range, as in the program the files come from. */
-constexpr double rangeTolerance = 1e-5;
+constexpr double kRangeTolerance = 1e-5;
 
 SimTK::Vec3 calcMovingStation(const MovingLocation& moving, const BuiltModel& model, const SimTK::State& state) {
     const auto& range = model.getCoordinateSlot(moving.coordinate).range;
     const double q = std::clamp(model.getCoordinate(state, moving.coordinate), range[0], range[1]);
-    Triple location_F;
-    for (std::size_t i = 0; i < 3; ++i) location_F[i] = moving.location_F[i].calcValue(q);
-    return toVec3(transformPoint(moving.X_BF, location_F));
+    Vec3 location_F;
+    for (int i = 0; i < 3; ++i) location_F[i] = moving.location_F[i].calcValue(q);
+    return toSimTK(moving.X_BF * location_F);
 }
 
 }  // namespace
@@ -23,12 +24,12 @@ bool isPointActive(const PathPoint& point, const BuiltModel& model, const SimTK:
     const auto* condition = std::get_if<ConditionalLocation>(&point.kind);
     if (!condition) return true;
     const double q = model.getCoordinate(state, condition->coordinate);
-    return q >= condition->range[0] - rangeTolerance && q <= condition->range[1] + rangeTolerance;
+    return q >= condition->range[0] - kRangeTolerance && q <= condition->range[1] + kRangeTolerance;
 }
 
 SimTK::Vec3 calcPointStation(const PathPoint& point, const BuiltModel& model, const SimTK::State& state) {
     const auto* moving = std::get_if<MovingLocation>(&point.kind);
-    return moving ? calcMovingStation(*moving, model, state) : toVec3(point.location);
+    return moving ? calcMovingStation(*moving, model, state) : toSimTK(point.location);
 }
 
 double calcPolygonLength(const MusclePath& path, const BuiltModel& model, const SimTK::State& state) {

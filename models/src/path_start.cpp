@@ -1,15 +1,12 @@
 #include "tautline/models/path_start.h"
 
-#include "tautline/simbody/conversions.h"
-
 namespace tautline::models {
-
 namespace {
 
 GeodesicStart makeStart(const Surface& surface, const WrapStart& given) {
     GeodesicStart start;
-    start.point = surface.findSurfacePoint(toEigen(toVec3(given.point)));
-    start.tangent = surface.calcFrame(start.point, toEigen(toVec3(given.direction))).t;
+    start.point = surface.findSurfacePoint(given.point);
+    start.tangent = surface.calcFrame(start.point, given.direction).t;
     start.length = given.length;
     return start;
 }

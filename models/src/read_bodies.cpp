@@ -3,11 +3,10 @@
 #include <algorithm>
 
 namespace tautline::models {
-
 namespace {
 
 /** Room for the rounding of moments of inertia that files give with few digits. */
-constexpr double inertiaTolerance = 1e-6;
+constexpr double kInertiaTolerance = 1e-6;
 
 std::array<double, 6> readInertia(Element& body) {
     std::array<double, 6> inertia{};
@@ -25,7 +24,7 @@ std::array<double, 6> readInertia(Element& body) {
 void checkInertia(const Element& body, const std::array<double, 6>& inertia) {
     const double sum = inertia[0] + inertia[1] + inertia[2];
     for (std::size_t i = 0; i < 3; ++i) {
-        const bool possible = inertia[i] >= 0.0 && 2 * inertia[i] <= sum * (1 + inertiaTolerance);
+        const bool possible = inertia[i] >= 0.0 && 2 * inertia[i] <= sum * (1 + kInertiaTolerance);
         if (!possible) body.fail("impossible moments of inertia of " + body.describe());
     }
 }
@@ -34,7 +33,7 @@ void readMassProperties(Element& element, Body& body) {
     const Element mass = element.require("mass");
     body.mass = mass.getNumber();
     if (body.mass < 0.0) mass.fail("negative mass " + mass.getText() + " of " + element.describe());
-    body.massCenter = element.require("mass_center").getTriple();
+    body.massCenter = element.require("mass_center").getVec3();
     body.inertia = readInertia(element);
     checkInertia(element, body.inertia);
 }
@@ -43,9 +42,8 @@ void readComponents(Element& owner, const std::string& path, BodyParts& parts) {
     const Element components = owner.find("components");
     if (!components) return;
     for (const Element& component : components.getChildren()) {
-        if (component.getTag() != "PhysicalOffsetFrame") {
+        if (component.getTag() != "PhysicalOffsetFrame")
             component.fail("unknown component " + component.describe() + " of " + owner.describe());
-        }
         addOffsetFrame(component, path, parts);
     }
 }
@@ -70,9 +68,8 @@ void readOldJoint(Element& body, const std::string& name, BodyParts& parts) {
 
 void readGround(Element ground, const std::string& path, BodyParts& parts) {
     for (const char* tag : {"mass", "mass_center", "inertia", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xy",
-                            "inertia_xz", "inertia_yz", "Joint"}) {
+                            "inertia_xz", "inertia_yz", "Joint"})
         ground.acceptTag(tag);  // of the ground without meaning
-    }
     readFrameParts(ground, path, parts);
 }
 
@@ -81,7 +78,7 @@ void readBody(Element element, BodyParts& parts) {
     Body body;
     body.name = element.getRequiredName();
     body.line = element.findLine();
-    if (body.name == groundName) return readGround(element, "/ground", parts);
+    if (body.name == kGroundName) return readGround(element, "/ground", parts);
     auto& model = element.updReading().model;
     if (findBody(model, body.name)) element.fail("a second body '" + body.name + "'");
     readMassProperties(element, body);
@@ -100,7 +97,7 @@ void addOffsetFrame(const Element& frame, const std::string& ownerPath, BodyPart
 }
 
 void readBodies(Element& model, BodyParts& parts) {
-    parts.frames.addBody(groundName);
+    parts.frames.addBody(kGroundName);
     if (const Element ground = model.find("Ground")) readGround(ground, "/ground", parts);
     Element bodySet = model.find("BodySet");
     if (!bodySet) return;

@@ -3,11 +3,10 @@
 #include <stdexcept>
 
 namespace tautline::models {
-
 namespace {
 
 /** Functions inside functions; deeper nesting is not a model but an attack on the stack. */
-constexpr int deepestNesting = 16;
+constexpr int kDeepestNesting = 16;
 
 std::optional<ScalarFunction> readWrapped(const Element& wrapper, int depth);
 
@@ -35,13 +34,10 @@ ScalarFunction readKnown(Element& element, int depth) {
     if (tag == "LinearFunction") return readLinear(element);
     if (tag == "Sine") return readSine(element);
     if (tag == "MultiplierFunction") return readMultiplier(element, depth);
-    if (tag == "PolynomialFunction") {
-        return ScalarFunction::polynomial(element.require("coefficients").getNumbers());
-    }
+    if (tag == "PolynomialFunction") return ScalarFunction::polynomial(element.require("coefficients").getNumbers());
     const bool lines = tag == "PiecewiseLinearFunction";
-    if (!lines && tag != "SimmSpline" && tag != "NaturalCubicSpline" && tag != "natCubicSpline") {
+    if (!lines && tag != "SimmSpline" && tag != "NaturalCubicSpline" && tag != "natCubicSpline")
         element.fail("unknown function " + element.describe());
-    }
     std::vector<double> x = element.require("x").getNumbers();
     std::vector<double> y = element.require("y").getNumbers();
     return lines ? ScalarFunction::piecewiseLinear(std::move(x), std::move(y))
@@ -50,14 +46,13 @@ ScalarFunction readKnown(Element& element, int depth) {
 
 void refuseUnknownParts(Element element) {
     for (const char* tag :
-         {"value", "coefficients", "function", "scale", "x", "y", "amplitude", "omega", "phase", "offset"}) {
+         {"value", "coefficients", "function", "scale", "x", "y", "amplitude", "omega", "phase", "offset"})
         element.acceptTag(tag);
-    }
     element.refuseUnknown();
 }
 
 ScalarFunction readAtDepth(Element element, int depth) {
-    if (depth > deepestNesting) element.fail("functions are nested too deeply");
+    if (depth > kDeepestNesting) element.fail("functions are nested too deeply");
     try {
         const ScalarFunction function = readKnown(element, depth);
         refuseUnknownParts(element);

@@ -1,12 +1,10 @@
 #include "read_joints.h"
 
-#include <cmath>
 #include <map>
 
 #include "read_functions.h"
 
 namespace tautline::models {
-
 namespace {
 
 struct JointKind {
@@ -16,13 +14,13 @@ struct JointKind {
 };
 
 const std::map<std::string, JointKind>& getJointKinds() {
-    static const std::map<std::string, JointKind> kinds{
+    static const std::map<std::string, JointKind> kKinds{
         {"WeldJoint", {JointType::Weld, 0}},     {"PinJoint", {JointType::Pin, 1}},
         {"SliderJoint", {JointType::Slider, 1}}, {"UniversalJoint", {JointType::Universal, 2}},
         {"BallJoint", {JointType::Ball, 3}},     {"GimbalJoint", {JointType::Gimbal, 3}},
         {"PlanarJoint", {JointType::Planar, 3}}, {"FreeJoint", {JointType::Free, 6}},
         {"CustomJoint", {JointType::Custom, -1}}};
-    return kinds;
+    return kKinds;
 }
 
 std::string makeJointPath(const Element& joint) {
@@ -33,14 +31,11 @@ void readPrescribedMotion(Element& element, Coordinate& coordinate) {
     const bool enforced = element.getBoolOr("prescribed", false);
     const Element wrapper = element.find("prescribed_function");
     const bool hasFunction = wrapper && !wrapper.getChildren().empty();
-    if (enforced && !hasFunction) {
-        element.fail(element.describe() + " is prescribed but has no prescribed_function");
-    }
-    if (enforced) {
+    if (enforced && !hasFunction) element.fail(element.describe() + " is prescribed but has no prescribed_function");
+    if (enforced)
         coordinate.prescribedMotion = requireWrappedFunction(wrapper);
-    } else if (hasFunction) {
+    else if (hasFunction)
         wrapper.skipThis("Coordinate", "the motion is not enforced");
-    }
 }
 
 Coordinate readCoordinate(Element element) {
@@ -65,9 +60,8 @@ Coordinate readCoordinate(Element element) {
 
 /** Whether the coordinate is one of the joint's. */
 bool hasCoordinate(const Joint& joint, const std::string& name) {
-    for (const Coordinate& coordinate : joint.coordinates) {
+    for (const Coordinate& coordinate : joint.coordinates)
         if (coordinate.name == name) return true;
-    }
     return false;
 }
 
@@ -77,9 +71,8 @@ void readCoordinates(Element& element, Joint& joint) {
     if (const Element list = element.find("coordinates")) members = list.getChildren();
     for (const Element& member : members) {
         const Coordinate coordinate = readCoordinate(member);
-        if (hasCoordinate(joint, coordinate.name) || findCoordinate(element.updReading().model, coordinate.name)) {
+        if (hasCoordinate(joint, coordinate.name) || findCoordinate(element.updReading().model, coordinate.name))
             member.fail("a second coordinate '" + coordinate.name + "'");
-        }
         joint.coordinates.push_back(coordinate);
     }
 }
@@ -94,9 +87,8 @@ ScalarFunction readAxisFunction(Element& element, bool driven) {
     }
     if (functions.size() > 1) functions[1].fail("a second function in " + element.describe());
     std::optional<ScalarFunction> function;
-    if (!functions.empty()) {
+    if (!functions.empty())
         function = functions[0].getTag() == "function" ? readWrappedFunction(functions[0]) : readFunction(functions[0]);
-    }
     return function.value_or(driven ? ScalarFunction::linear(1.0, 0.0) : ScalarFunction());
 }
 
@@ -111,10 +103,8 @@ TransformAxis readTransformAxis(Element element, const Joint& joint) {
         }
     }
     const Element direction = element.require("axis");
-    axis.axis = direction.getTriple();
-    if (std::hypot(axis.axis[0], axis.axis[1], axis.axis[2]) == 0.0) {
-        direction.fail("the axis of " + element.describe() + " has no direction");
-    }
+    axis.axis = direction.getVec3();
+    if (axis.axis.norm() == 0.0) direction.fail("the axis of " + element.describe() + " has no direction");
     axis.function = readAxisFunction(element, !axis.coordinate.empty());
     return axis;
 }
@@ -123,12 +113,9 @@ TransformAxis readTransformAxis(Element element, const Joint& joint) {
 void checkThatCoordinatesMove(const Element& element, const Joint& joint) {
     for (const Coordinate& coordinate : joint.coordinates) {
         bool moves = false;
-        for (const TransformAxis& axis : joint.axes) {
+        for (const TransformAxis& axis : joint.axes)
             moves = moves || (axis.coordinate == coordinate.name && !axis.function.isConstant());
-        }
-        if (!moves) {
-            element.fail("coordinate '" + coordinate.name + "' moves nothing in " + element.describe());
-        }
+        if (!moves) element.fail("coordinate '" + coordinate.name + "' moves nothing in " + element.describe());
     }
 }
 
@@ -163,10 +150,11 @@ void readNewFrames(Element& element, Joint& joint, const FrameTable& frames) {
 
 void readOldFrames(Element& element, const std::string& childBody, Joint& joint, const FrameTable& frames) {
     joint.parentBody = frames.resolveBody(element.require("parent_body"));
-    joint.parentOffset = makeRigidOffset(element.getTripleOr("location_in_parent", {}),
-                                         element.getTripleOr("orientation_in_parent", {}));
+    joint.parentOffset = makePose(element.getVec3Or("location_in_parent", Vec3::Zero()),
+                                  element.getVec3Or("orientation_in_parent", Vec3::Zero()));
     joint.childBody = childBody;
-    joint.childOffset = makeRigidOffset(element.getTripleOr("location", {}), element.getTripleOr("orientation", {}));
+    joint.childOffset =
+        makePose(element.getVec3Or("location", Vec3::Zero()), element.getVec3Or("orientation", Vec3::Zero()));
     if (element.getBoolOr("reverse", false)) {
         std::swap(joint.parentBody, joint.childBody);
         std::swap(joint.parentOffset, joint.childOffset);
@@ -184,18 +172,16 @@ void checkNumberOfCoordinates(const Element& element, const Joint& joint, int ex
 void readJoint(const JointElement& source, const FrameTable& frames) {
     Element element = source.element;
     const auto kind = getJointKinds().find(element.getTag());
-    if (kind == getJointKinds().end()) {
+    if (kind == getJointKinds().end())
         element.fail("unknown joint " + element.describe() + ": its bodies cannot be connected without it");
-    }
     Joint joint;
     joint.name = element.getRequiredName();
     joint.type = kind->second.type;
     joint.line = element.findLine();
-    if (source.childBody.empty()) {
+    if (source.childBody.empty())
         readNewFrames(element, joint, frames);
-    } else {
+    else
         readOldFrames(element, source.childBody, joint, frames);
-    }
     readCoordinates(element, joint);
     checkNumberOfCoordinates(element, joint, kind->second.coordinates);
     if (joint.type == JointType::Custom) readSpatialTransform(element, joint);
@@ -214,9 +200,8 @@ void collectJoints(Element& model, BodyParts& parts) {
         const Element frames = joint.find("frames");
         if (!frames) continue;
         for (const Element& frame : frames.getChildren()) {
-            if (frame.getTag() != "PhysicalOffsetFrame") {
+            if (frame.getTag() != "PhysicalOffsetFrame")
                 frame.fail("unknown frame " + frame.describe() + " of " + joint.describe());
-            }
             addOffsetFrame(frame, makeJointPath(joint), parts);
         }
     }

@@ -6,7 +6,6 @@
 #include "read_functions.h"
 
 namespace tautline::models {
-
 namespace {
 
 BodyFrame resolvePointFrame(Element& element, const FrameTable& frames) {
@@ -24,7 +23,7 @@ ConditionalLocation readCondition(Element& element) {
     return {resolveCoordinate(coordinate).name, {range[0], range[1]}};
 }
 
-MovingLocation readMotion(Element& element, const RigidOffset& X_BF) {
+MovingLocation readMotion(Element& element, const Pose& X_BF) {
     MovingLocation location;
     location.X_BF = X_BF;
     const std::string axes[3] = {"x", "y", "z"}, oldAxes[3] = {"X", "Y", "Z"};
@@ -34,9 +33,8 @@ MovingLocation readMotion(Element& element, const RigidOffset& X_BF) {
         const Element coordinate = element.findAny({"socket_" + axes[i] + "_coordinate", axes[i] + "_coordinate"});
         if (!coordinate) element.fail(element.describe() + " has no socket_" + axes[i] + "_coordinate");
         const std::string name = resolveCoordinate(coordinate).name;
-        if (i > 0 && name != location.coordinate) {
+        if (i > 0 && name != location.coordinate)
             coordinate.fail("the components of " + element.describe() + " move with different coordinates");
-        }
         location.coordinate = name;
     }
     return location;
@@ -53,7 +51,7 @@ PathPoint readPathPoint(Element element, const FrameTable& frames) {
         point.kind = readMotion(element, frame.X_BF);
         element.skip({"location"}, "the location of a moving point is a function");
     } else if (tag == "PathPoint" || tag == "ConditionalPathPoint") {
-        point.location = transformPoint(frame.X_BF, element.require("location").getTriple());
+        point.location = frame.X_BF * element.require("location").getVec3();
         if (tag == "ConditionalPathPoint") point.kind = readCondition(element);
     } else {
         element.fail("unknown path point " + element.describe());
@@ -66,24 +64,21 @@ PathPoint readPathPoint(Element element, const FrameTable& frames) {
 /** Of several objects with one name the first in the order of the bodies is meant. */
 std::size_t resolveWrapObject(const Element& name) {
     const auto& wraps = name.updReading().model.wrapObjects;
-    for (std::size_t i = 0; i < wraps.size(); ++i) {
+    for (std::size_t i = 0; i < wraps.size(); ++i)
         if (wraps[i].name == name.getText()) return i;
-    }
     name.fail("there is no wrap object '" + name.getText() + "', the " + name.describeField());
 }
 
 WrapMethod readMethod(Element& element) {
-    static const std::map<std::string, WrapMethod> methods{{"", WrapMethod::Hybrid},
-                                                           {"Unassigned", WrapMethod::Hybrid},
-                                                           {"hybrid", WrapMethod::Hybrid},
-                                                           {"midpoint", WrapMethod::Midpoint},
-                                                           {"axial", WrapMethod::Axial}};
+    static const std::map<std::string, WrapMethod> kMethods{{"", WrapMethod::Hybrid},
+                                                            {"Unassigned", WrapMethod::Hybrid},
+                                                            {"hybrid", WrapMethod::Hybrid},
+                                                            {"midpoint", WrapMethod::Midpoint},
+                                                            {"axial", WrapMethod::Axial}};
     const Element child = element.find("method");
     if (!child) return WrapMethod::Hybrid;
-    const auto found = methods.find(child.getText());
-    if (found == methods.end()) {
-        child.fail("unknown method '" + child.getText() + "' of " + element.describe());
-    }
+    const auto found = kMethods.find(child.getText());
+    if (found == kMethods.end()) child.fail("unknown method '" + child.getText() + "' of " + element.describe());
     return found->second;
 }
 
@@ -104,10 +99,10 @@ std::array<int, 2> readWrapRange(Element& element, std::size_t points) {
 WrapStart readWrapStart(Element element) {
     WrapStart start;
     start.line = element.findLine();
-    start.point = element.require("point").getTriple();
+    start.point = element.require("point").getVec3();
     const Element direction = element.require("direction");
-    start.direction = direction.getTriple();
-    if (start.direction == Triple{}) direction.fail("the " + direction.describeField() + " is zero");
+    start.direction = direction.getVec3();
+    if (start.direction.isZero(0)) direction.fail("the " + direction.describeField() + " is zero");
     start.length = element.requirePositive("length");
     element.refuseUnknown();
     return start;
@@ -121,7 +116,7 @@ PathWrap readPathWrap(Element element, std::size_t points) {
     wrap.wrapObject = resolveWrapObject(element.require("wrap_object"));
     wrap.method = readMethod(element);
     wrap.range = readWrapRange(element, points);
-    if (const Element hint = element.find("tautline_hint")) wrap.hint = hint.getTriple();
+    if (const Element hint = element.find("tautline_hint")) wrap.hint = hint.getVec3();
     if (const Element start = element.find("tautline_start")) wrap.start = readWrapStart(start);
     element.refuseUnknown();
     return wrap;
@@ -131,15 +126,10 @@ MusclePath readPath(Element element, const std::string& owner, const FrameTable&
     MusclePath path;
     path.line = element.findLine();
     Element points = element.require("PathPointSet");
-    for (const Element& point : points.getSetMembers()) {
-        path.points.push_back(readPathPoint(point, frames));
-    }
+    for (const Element& point : points.getSetMembers()) path.points.push_back(readPathPoint(point, frames));
     if (path.points.size() < 2) points.fail("the path of " + owner + " has fewer than two points");
-    if (Element wraps = element.find("PathWrapSet")) {
-        for (const Element& wrap : wraps.getSetMembers()) {
-            path.wraps.push_back(readPathWrap(wrap, path.points.size()));
-        }
-    }
+    if (Element wraps = element.find("PathWrapSet"))
+        for (const Element& wrap : wraps.getSetMembers()) path.wraps.push_back(readPathWrap(wrap, path.points.size()));
     path.areWrapsInOrder = element.getBoolOr("tautline_wraps_in_order", false);
     element.skip({"Appearance", "VisibleObject", "display_preference", "default_color"}, "only drawn");
     element.refuseUnknown();
@@ -151,9 +141,8 @@ void readFibers(Element& element, Muscle& muscle) {
     muscle.optimalFiberLength = element.requirePositive("optimal_fiber_length");
     muscle.tendonSlackLength = element.requirePositive("tendon_slack_length");
     muscle.pennationAngleAtOptimal = element.getNumberOr("pennation_angle_at_optimal", 0.0);
-    if (element.find("max_contraction_velocity")) {
+    if (element.find("max_contraction_velocity"))
         muscle.maxContractionVelocity = element.requirePositive("max_contraction_velocity");
-    }
     muscle.ignoresTendonCompliance = element.getBoolOr("ignore_tendon_compliance", false);
     muscle.ignoresActivationDynamics = element.getBoolOr("ignore_activation_dynamics", false);
 }
@@ -184,11 +173,9 @@ void skipMuscleDetails(Element& element) {
 }
 
 MusclePath readOwnedPath(Element& owner, const FrameTable& frames) {
-    for (const char* tag : {"Scholz2015GeometryPath", "FunctionBasedPath"}) {
-        if (const Element other = owner.find(tag)) {
+    for (const char* tag : {"Scholz2015GeometryPath", "FunctionBasedPath"})
+        if (const Element other = owner.find(tag))
             other.fail("unknown path " + other.describe() + " of " + owner.describe());
-        }
-    }
     return readPath(owner.require("GeometryPath"), owner.describe(), frames);
 }
 
@@ -210,9 +197,8 @@ void readSpring(Element& element, const FrameTable& frames) {
     spring.stiffness = element.requirePositive("stiffness");
     const Element dissipation = element.require("dissipation");
     spring.dissipation = dissipation.getNumber();
-    if (spring.dissipation < 0.0) {
+    if (spring.dissipation < 0.0)
         dissipation.fail("negative dissipation " + dissipation.getText() + " of " + element.describe());
-    }
     element.skip({"optimal_force", "min_control", "max_control"}, "of a spring without meaning");
     element.refuseUnknown();
     element.updReading().model.springs.push_back(std::move(spring));
@@ -236,15 +222,14 @@ void readMuscle(Element& element, const FrameTable& frames) {
 
 void readForce(Element element, const FrameTable& frames) {
     const std::string tag = element.getTag();
-    if (tag == "Thelen2003Muscle" || tag == "Millard2012EquilibriumMuscle") {
+    if (tag == "Thelen2003Muscle" || tag == "Millard2012EquilibriumMuscle")
         readMuscle(element, frames);
-    } else if (tag == "PathSpring") {
+    else if (tag == "PathSpring")
         readSpring(element, frames);
-    } else if (tag == "CoordinateActuator" || tag == "PointActuator" || tag == "TorqueActuator") {
+    else if (tag == "CoordinateActuator" || tag == "PointActuator" || tag == "TorqueActuator")
         element.skipThis("ForceSet", "gives no force while no controller drives it");
-    } else {
+    else
         element.fail("unknown force " + element.describe());
-    }
 }
 
 }  // namespace

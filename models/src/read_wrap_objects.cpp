@@ -3,26 +3,23 @@
 #include <map>
 
 namespace tautline::models {
-
 namespace {
 
 Quadrant readQuadrant(Element& element) {
-    static const std::map<std::string, Quadrant> quadrants{
+    static const std::map<std::string, Quadrant> kQuadrants{
         {"", Quadrant::All},      {"all", Quadrant::All},   {"Unassigned", Quadrant::All}, {"x", Quadrant::PlusX},
         {"+x", Quadrant::PlusX},  {"-x", Quadrant::MinusX}, {"y", Quadrant::PlusY},        {"+y", Quadrant::PlusY},
         {"-y", Quadrant::MinusY}, {"z", Quadrant::PlusZ},   {"+z", Quadrant::PlusZ},       {"-z", Quadrant::MinusZ}};
     const Element child = element.find("quadrant");
     if (!child) return Quadrant::All;
-    const auto found = quadrants.find(child.getText());
-    if (found == quadrants.end()) {
-        child.fail("unknown quadrant '" + child.getText() + "' of " + element.describe());
-    }
+    const auto found = kQuadrants.find(child.getText());
+    if (found == kQuadrants.end()) child.fail("unknown quadrant '" + child.getText() + "' of " + element.describe());
     return found->second;
 }
 
 EllipsoidShape readEllipsoid(Element& element) {
     const Element dimensions = element.require("dimensions");
-    const EllipsoidShape shape{dimensions.getTriple()};
+    const EllipsoidShape shape{dimensions.getVec3()};
     for (double semiAxis : shape.semiAxes) {
         if (semiAxis <= 0.0) {
             dimensions.fail("dimensions of " + element.describe() + " are " + dimensions.getText() +
@@ -61,29 +58,26 @@ SurfaceForm readForm(Element& element) {
 
 void readShape(Element& element, WrapObject& wrap) {
     const std::string tag = element.getTag();
-    if (tag == "WrapCylinder") {
+    if (tag == "WrapCylinder")
         wrap.shape = CylinderShape{element.requirePositive("radius"), element.requirePositive("length")};
-    } else if (tag == "WrapSphere") {
+    else if (tag == "WrapSphere")
         wrap.shape = SphereShape{element.requirePositive("radius")};
-    } else if (tag == "WrapEllipsoid") {
+    else if (tag == "WrapEllipsoid")
         wrap.shape = readEllipsoid(element);
-    } else if (tag == "WrapTorus") {
+    else if (tag == "WrapTorus")
         wrap.shape = readTorus(element);
-    } else if (tag == "TautlineWrapParaboloid") {
+    else if (tag == "TautlineWrapParaboloid")
         wrap.shape = readParaboloid(element);
-    } else if (tag == "TautlineWrapEllipticTorus") {
+    else if (tag == "TautlineWrapEllipticTorus")
         wrap.shape = readEllipticTorus(element);
-    } else {
+    else
         element.fail("unknown wrap object " + element.describe());
-    }
 }
 
 void checkUnique(const Element& element, const WrapObject& wrap, const ModelDescription& model) {
-    for (const WrapObject& other : model.wrapObjects) {
-        if (other.name == wrap.name && other.body == wrap.body) {
+    for (const WrapObject& other : model.wrapObjects)
+        if (other.name == wrap.name && other.body == wrap.body)
             element.fail("a second wrap object '" + wrap.name + "' of body '" + wrap.body + "'");
-        }
-    }
 }
 
 void readWrapObject(Element element, const BodyFrame& owner) {
@@ -93,9 +87,9 @@ void readWrapObject(Element element, const BodyFrame& owner) {
     wrap.body = owner.body;
     readShape(element, wrap);
     wrap.form = readForm(element);
-    const Triple translation = element.getTripleOr("translation", {});
-    const Triple rotation = element.getTripleOr("xyz_body_rotation", {});
-    wrap.X_BW = compose(owner.X_BF, makeRigidOffset(translation, rotation));
+    const Vec3 translation = element.getVec3Or("translation", Vec3::Zero());
+    const Vec3 rotation = element.getVec3Or("xyz_body_rotation", Vec3::Zero());
+    wrap.X_BW = owner.X_BF * makePose(translation, rotation);
     wrap.quadrant = readQuadrant(element);
     wrap.active = element.getBoolOr("active", true);
     element.skip({"Appearance", "VisibleObject", "display_preference", "color", "FrameGeometry"}, "only drawn");
@@ -107,13 +101,13 @@ void readWrapObject(Element element, const BodyFrame& owner) {
 
 BodyFrame findOwner(const FrameElement& owner, const FrameTable& frames) {
     Element element = owner.element;
-    if (element.getTag() != "PhysicalOffsetFrame") {
-        return {owner.path == "/ground" ? groundName : element.getName(), {}};
-    }
+    if (element.getTag() != "PhysicalOffsetFrame")
+        return {owner.path == "/ground" ? kGroundName : element.getName(), {}};
     const Element parent = element.require("socket_parent");
     const BodyFrame base = frames.resolve(parent, owner.path);
-    return {base.body, compose(base.X_BF, makeRigidOffset(element.getTripleOr("translation", {}),
-                                                          element.getTripleOr("orientation", {})))};
+    const Vec3 translation = element.getVec3Or("translation", Vec3::Zero());
+    const Vec3 orientation = element.getVec3Or("orientation", Vec3::Zero());
+    return {base.body, base.X_BF * makePose(translation, orientation)};
 }
 
 }  // namespace
@@ -123,9 +117,7 @@ void readWrapObjects(const BodyParts& parts) {
         Element element = owner.element;
         Element set = element.find("WrapObjectSet");
         if (!set) continue;
-        for (const Element& wrap : set.getSetMembers()) {
-            readWrapObject(wrap, findOwner(owner, parts.frames));
-        }
+        for (const Element& wrap : set.getSetMembers()) readWrapObject(wrap, findOwner(owner, parts.frames));
     }
 }
 

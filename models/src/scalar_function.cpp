@@ -7,17 +7,14 @@
 #include <string>
 
 namespace tautline::models {
-
 namespace {
 
-/** Equal abscissae are kept this far apart, small beside any knot spacing of a joint or a muscle.
- */
-constexpr double leastKnotSpacing = 1e-7;
+/** Equal abscissae are kept this far apart, small beside any knot spacing of a joint or a muscle. */
+constexpr double kLeastKnotSpacing = 1e-7;
 
 void requireFinite(const std::vector<double>& numbers) {
-    for (double number : numbers) {
+    for (double number : numbers)
         if (!std::isfinite(number)) throw std::invalid_argument("a number is not finite");
-    }
 }
 
 void requireKnots(const std::vector<double>& x, const std::vector<double>& y) {
@@ -29,13 +26,11 @@ void requireKnots(const std::vector<double>& x, const std::vector<double>& y) {
     requireFinite(x);
     requireFinite(y);
     const auto decrease = std::adjacent_find(x.begin(), x.end(), std::greater<double>());
-    if (decrease != x.end()) {
-        throw std::invalid_argument("the abscissae decrease after " + std::to_string(*decrease));
-    }
+    if (decrease != x.end()) throw std::invalid_argument("the abscissae decrease after " + std::to_string(*decrease));
 }
 
 std::vector<double> separateKnots(std::vector<double> x) {
-    for (std::size_t i = 1; i < x.size(); ++i) x[i] = std::max(x[i], x[i - 1] + leastKnotSpacing);
+    for (std::size_t i = 1; i < x.size(); ++i) x[i] = std::max(x[i], x[i - 1] + kLeastKnotSpacing);
     return x;
 }
 
@@ -59,11 +54,9 @@ double calcThirdDifference(const std::vector<double>& h, const std::vector<doubl
     return (right - left) / (h0 + h1 + h2);
 }
 
-/**
- * The sixth parts g_i of the second derivatives at the knots. Row i of the tridiagonal system is
- * lower[i] g_{i-1} + diagonal[i] g_i + upper[i] g_{i+1} = g[i]. The end rows are scaled by the end
- * spacings: then eliminating downwards needs no pivoting.
- */
+/** The sixth parts g_i of the second derivatives at the knots. Row i of the tridiagonal system is lower[i] g_{i-1} +
+diagonal[i] g_i + upper[i] g_{i+1} = g[i]. The end rows are scaled by the end spacings: then eliminating downwards needs
+no pivoting. */
 std::vector<double> solveForCurvatures(const std::vector<double>& h, const std::vector<double>& m) {
     const std::size_t n = h.size() + 1;
     std::vector<double> lower(n), diagonal(n), upper(n), g(n);
@@ -160,9 +153,8 @@ ScalarFunction ScalarFunction::scaledBy(double factor) const {
 }
 
 double ScalarFunction::calcDerivativeOfOrder(int order, double x) const {
-    if (const auto* polynomial = std::get_if<Polynomial>(&m_form)) {
+    if (const auto* polynomial = std::get_if<Polynomial>(&m_form))
         return m_factor * calcPolynomial(*polynomial, order, x);
-    }
     if (const auto* wave = std::get_if<Wave>(&m_form)) return m_factor * calcWave(*wave, order, x);
     return m_factor * calcCubics(std::get<Cubics>(m_form), order, x);
 }

@@ -6,23 +6,17 @@
 
 #include "tautline/models/path_points.h"
 #include "tautline/simbody/conversions.h"
-#include "tautline/surfaces/cylinder.h"
-#include "tautline/surfaces/ellipsoid.h"
-#include "tautline/surfaces/elliptic_torus.h"
-#include "tautline/surfaces/paraboloid.h"
-#include "tautline/surfaces/sphere.h"
-#include "tautline/surfaces/torus.h"
+#include "wrap_surface.h"
 
 namespace tautline::models {
-
 namespace {
 
 /** Poses besides the default one at which engagement is looked at. */
-constexpr int numSampledPoses = 60;
+constexpr int kNumSampledPoses = 60;
 /** Of a coordinate without limits: as far as it is sampled to either side of its default. */
-constexpr double unboundedRange = 1.0;
+constexpr double kUnboundedRange = 1.0;
 /** Of a driven coordinate, the time over which its motion is sampled [s]. */
-constexpr double sampledTime = 10.0;
+constexpr double kSampledTime = 10.0;
 
 /** A straight segment of a path seen from a wrap object. */
 struct SegmentInObject {
@@ -68,8 +62,8 @@ Vec3 getActiveSide(Quadrant quadrant) {
     return Vec3::Zero();
 }
 
-/** Whether a path wraps on this segment: where the segment meets the object, or where it passes it on the
-side opposite to the active one. A finite cylinder counts within its length only. */
+/** Whether a path wraps on this segment: where the segment meets the object, or where it passes it on the side opposite
+to the active one. A finite cylinder counts within its length only. */
 bool isEngaged(const WrapObject& object, const SegmentInObject& segment) {
     if (segment.hasEndInside) return false;
     const Vec3 D = segment.A + segment.lowest * segment.e, B = segment.A + segment.length * segment.e;
@@ -98,109 +92,106 @@ std::vector<SimTK::Vec3> calcPointLocations(const MusclePath& path, const BuiltM
 }
 
 /** Moves every free coordinate to a place in its range, a driven one to a place of its motion; the same sequence at
- * each call of bindWraps(). */
+each call of bindWraps(). */
 void setRandomPose(const BuiltModel& model, std::mt19937& random, SimTK::State& state) {
     for (const std::string& name : model.getCoordinateNames()) {
         const auto& slot = model.getCoordinateSlot(name);
         // mt19937's numbers are the same everywhere; those of standard distributions are not.
         const double share = random() / static_cast<double>(std::mt19937::max());
-        const double low = std::isfinite(slot.range[0]) ? slot.range[0] : slot.defaultValue - unboundedRange;
-        const double high = std::isfinite(slot.range[1]) ? slot.range[1] : slot.defaultValue + unboundedRange;
+        const double low = std::isfinite(slot.range[0]) ? slot.range[0] : slot.defaultValue - kUnboundedRange;
+        const double high = std::isfinite(slot.range[1]) ? slot.range[1] : slot.defaultValue + kUnboundedRange;
         if (slot.prescribedMotion)
-            model.setCoordinate(state, name, slot.prescribedMotion->calcValue(share * sampledTime));
+            model.setCoordinate(state, name, slot.prescribedMotion->calcValue(share * kSampledTime));
         else if (!slot.locked)
             model.setCoordinate(state, name, low + share * (high - low));
     }
     model.applyCouplers(state);
 }
 
-using SurfacePointer = std::shared_ptr<const Surface>;
-
-struct ImplicitMaker {
-    SurfacePointer operator()(const CylinderShape& s) { return std::make_shared<Cylinder>(s.radius); }
-    SurfacePointer operator()(const SphereShape& s) { return std::make_shared<Sphere>(s.radius); }
-    SurfacePointer operator()(const EllipsoidShape& s) {
-        return std::make_shared<Ellipsoid>(Vec3(s.semiAxes[0], s.semiAxes[1], s.semiAxes[2]));
-    }
-    SurfacePointer operator()(const TorusShape& s) { return std::make_shared<Torus>(s.ringRadius, s.tubeRadius); }
-    SurfacePointer operator()(const ParaboloidShape& s) { return std::make_shared<Paraboloid>(s.a, s.b); }
-    SurfacePointer operator()(const EllipticTorusShape& s) {
-        return std::make_shared<EllipticTorus>(s.ringRadius, s.radialSemiAxis, s.axialSemiAxis);
-    }
-};
-
-struct ParametricMaker {
-    SurfacePointer operator()(const CylinderShape& s) { return std::make_shared<ParametricCylinder>(s.radius); }
-    SurfacePointer operator()(const SphereShape& s) { return std::make_shared<ParametricSphere>(s.radius); }
-    SurfacePointer operator()(const EllipsoidShape& s) {
-        return std::make_shared<ParametricEllipsoid>(Vec3(s.semiAxes[0], s.semiAxes[1], s.semiAxes[2]));
-    }
-    SurfacePointer operator()(const TorusShape& s) {
-        return std::make_shared<ParametricTorus>(s.ringRadius, s.tubeRadius);
-    }
-    SurfacePointer operator()(const ParaboloidShape& s) { return std::make_shared<ParametricParaboloid>(s.a, s.b); }
-    SurfacePointer operator()(const EllipticTorusShape& s) {
-        return std::make_shared<ParametricEllipticTorus>(s.ringRadius, s.radialSemiAxis, s.axialSemiAxis);
-    }
-};
-
 /** What the file says of where the path runs: a point, a start, or the side that the quadrant asks for. */
 StartHint makeHint(const WrapObject& object, const PathWrap& wrap) {
-    if (wrap.hint) return PassNear{toEigen(toVec3(*wrap.hint))};
-    if (wrap.start) return PassNear{toEigen(toVec3(wrap.start->point))};
+    if (wrap.hint) return PassNear{*wrap.hint};
+    if (wrap.start) return PassNear{wrap.start->point};
     const Vec3 side = getActiveSide(object.quadrant);
     if (side.isZero()) return {};
     return PassOnSide{side};
 }
 
-}  // namespace
+/** A segment that a wrap allows. */
+struct SampledSegment {
+    SegmentInObject atDefault;  ///< in the default pose
+    int numEngaged = 0;         ///< sampled poses in which the path wraps there
+};
 
-std::shared_ptr<const Surface> makeSurface(const WrapObject& object) {
-    return object.form == SurfaceForm::Parametric ? std::visit(ParametricMaker(), object.shape)
-                                                  : std::visit(ImplicitMaker(), object.shape);
+/** Calls visit(isDefaultPose) in the default pose and in the sampled ones, with `state` realized to Position. */
+template <class Visitor>
+void visitSampledPoses(const BuiltModel& model, SimTK::State& state, Visitor visit) {
+    std::mt19937 random(20260101);
+    for (int sample = 0; sample <= kNumSampledPoses; ++sample) {
+        if (sample == 0)
+            model.setDefaultPose(state);
+        else
+            setRandomPose(model, random, state);
+        model.getMatter().getSystem().realize(state, SimTK::Stage::Position);
+        visit(sample == 0);
+    }
 }
+
+/** The segments from `first` to `last` over all poses. */
+std::vector<SampledSegment> sampleSegments(const WrapObject& object, const MusclePath& path, std::size_t first,
+                                           std::size_t last, const BuiltModel& model, SimTK::State& state) {
+    const auto surface = makeSurface(object);
+    const SimTK::Transform X_BW = toTransform(object.X_BW);
+    std::vector<SampledSegment> segments(last - first + 1);
+    visitSampledPoses(model, state, [&](bool isDefault) {
+        const SimTK::Transform X_GW = model.getBody(object.body).getBodyTransform(state) * X_BW;
+        const std::vector<SimTK::Vec3> points_G = calcPointLocations(path, model, state);
+        for (std::size_t s = first; s <= last; ++s) {
+            const SegmentInObject segment = lookAtSegment(*surface, X_GW, points_G[s], points_G[s + 1]);
+            if (isDefault) segments[s - first].atDefault = segment;
+            segments[s - first].numEngaged += isEngaged(object, segment);
+        }
+    });
+    return segments;
+}
+
+/** The one that is engaged in most poses; of those the one nearest to the object. */
+const SampledSegment& chooseSegment(const std::vector<SampledSegment>& segments) {
+    return *std::max_element(segments.begin(), segments.end(), [](const SampledSegment& a, const SampledSegment& b) {
+        return a.numEngaged != b.numEngaged ? a.numEngaged < b.numEngaged : b.atDefault.height < a.atDefault.height;
+    });
+}
+
+/** Where the origin of the object stands along a segment, 0 to 1. */
+double calcPlace(const SegmentInObject& segment) {
+    return segment.length > 0 ? std::clamp(-segment.A.dot(segment.e) / segment.length, 0.0, 1.0) : 0.0;
+}
+
+BoundWrap bindWrap(const WrapObject& object, const MusclePath& path, std::size_t wrap, const BuiltModel& model,
+                   SimTK::State& state) {
+    const auto [first, last] = getAllowedSegments(path.wraps[wrap], path.points.size());
+    const std::vector<SampledSegment> segments = sampleSegments(object, path, first, last, model, state);
+    const SampledSegment& chosen = chooseSegment(segments);
+    BoundWrap bound;
+    bound.wrap = wrap, bound.form = object.form;
+    bound.segment = first + static_cast<std::size_t>(&chosen - segments.data());
+    bound.place = calcPlace(chosen.atDefault);
+    bound.hint_W = makeHint(object, path.wraps[wrap]);
+    bound.numEngaged = chosen.numEngaged;
+    for (const SampledSegment& segment : segments)
+        if (&segment != &chosen) bound.numElsewhere += segment.numEngaged;
+    return bound;
+}
+
+}  // namespace
 
 std::vector<BoundWrap> bindWraps(const ModelDescription& description, const MusclePath& path, const BuiltModel& model,
                                  const SimTK::State& initialState) {
     std::vector<BoundWrap> bound;
     SimTK::State state = initialState;
-    const SimTK::SimbodyMatterSubsystem& matter = model.getMatter();
     for (std::size_t w = 0; w < path.wraps.size(); ++w) {
         const WrapObject& object = description.wrapObjects[path.wraps[w].wrapObject];
-        if (!object.active) continue;
-        const auto surface = makeSurface(object);
-        const auto [first, last] = getAllowedSegments(path.wraps[w], path.points.size());
-        std::vector<int> engaged(path.points.size(), 0);
-        std::vector<SegmentInObject> atDefault(path.points.size());
-        std::mt19937 random(20260101);
-        for (int sample = 0; sample <= numSampledPoses; ++sample) {
-            if (sample == 0)
-                model.setDefaultPose(state);
-            else
-                setRandomPose(model, random, state);
-            matter.getSystem().realize(state, SimTK::Stage::Position);
-            const SimTK::Transform X_GW = model.getBody(object.body).getBodyTransform(state) * toTransform(object.X_BW);
-            const std::vector<SimTK::Vec3> points_G = calcPointLocations(path, model, state);
-            for (std::size_t s = first; s <= last; ++s) {
-                const SegmentInObject segment = lookAtSegment(*surface, X_GW, points_G[s], points_G[s + 1]);
-                if (sample == 0) atDefault[s] = segment;
-                engaged[s] += isEngaged(object, segment);
-            }
-        }
-        BoundWrap wrap;
-        wrap.wrap = w, wrap.segment = first, wrap.form = object.form;
-        int total = 0;
-        for (std::size_t s = first; s <= last; ++s) {
-            total += engaged[s];
-            const bool isNearer = atDefault[s].height < atDefault[wrap.segment].height;
-            if (engaged[s] > engaged[wrap.segment] || (engaged[s] == engaged[wrap.segment] && isNearer))
-                wrap.segment = s;
-        }
-        const SegmentInObject& segment = atDefault[wrap.segment];
-        wrap.numEngaged = engaged[wrap.segment], wrap.numElsewhere = total - wrap.numEngaged;
-        wrap.place = segment.length > 0 ? std::clamp(-segment.A.dot(segment.e) / segment.length, 0.0, 1.0) : 0.0;
-        wrap.hint_W = makeHint(object, path.wraps[w]);
-        bound.push_back(wrap);
+        if (object.active) bound.push_back(bindWrap(object, path, w, model, state));
     }
     const bool isListed = path.areWrapsInOrder;
     std::stable_sort(bound.begin(), bound.end(), [isListed](const BoundWrap& a, const BoundWrap& b) {

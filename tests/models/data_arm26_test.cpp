@@ -115,7 +115,7 @@ TEST(DataArm26, ReadsWrapObjects) {
     const WrapObject* ellipsoid = findWrapObject(arm, "BIClonghh");
     ASSERT_NE(ellipsoid, nullptr);
     EXPECT_EQ(ellipsoid->quadrant, Quadrant::MinusY);
-    EXPECT_EQ(std::get<EllipsoidShape>(ellipsoid->shape).semiAxes, (Triple{0.025, 0.02, 0.02}));
+    EXPECT_EQ(std::get<EllipsoidShape>(ellipsoid->shape).semiAxes, Vec3(0.025, 0.02, 0.02));
     EXPECT_EQ(findMuscle(arm, "BIClong")->path.wraps.at(0).range, (std::array<int, 2>{2, 3}));
 }
 

@@ -4,6 +4,7 @@
 
 #include "model_test_support.h"
 #include "tautline/models/path_points.h"
+#include "tautline/simbody/conversions.h"
 
 namespace tautline::models::testing {
 namespace {
@@ -22,10 +23,9 @@ SimTK::Vec3 locateInWrap(const PathPoint& point, const WrapObject& wrap, const B
 
 /** Less than 1 inside the surface. */
 double calcDepth(const WrapObject& wrap, const SimTK::Vec3& point_W) {
-    if (const auto* cylinder = std::get_if<CylinderShape>(&wrap.shape)) {
+    if (const auto* cylinder = std::get_if<CylinderShape>(&wrap.shape))
         return std::hypot(point_W[0], point_W[1]) / cylinder->radius;
-    }
-    const Triple axes = std::get<EllipsoidShape>(wrap.shape).semiAxes;
+    const Vec3 axes = std::get<EllipsoidShape>(wrap.shape).semiAxes;
     return std::hypot(point_W[0] / axes[0], point_W[1] / axes[1], point_W[2] / axes[2]);
 }
 
@@ -71,10 +71,8 @@ TEST(ElbowModel, NoPointOfAWrappedSegmentLiesInTheWrapObject) {
     EXPECT_GT(least, 1.05);
 }
 
-/**
- * The angle that a path in the plane wraps around a circle on a given side; negative if it passes
- * clear of it. The three wraps at the elbow are cylinders about z, or nearly circular.
- */
+/** The angle that a path in the plane wraps around a circle on a given side; negative if it passes clear of it. The
+three wraps at the elbow are cylinders about z, or nearly circular. */
 double calcWrapAngle(const SimTK::Vec3& a, const SimTK::Vec3& b, double radius, double turn) {
     const double ra = std::hypot(a[0], a[1]), rb = std::hypot(b[0], b[1]);
     const double between = turn * (std::atan2(b[1], b[0]) - std::atan2(a[1], a[0]));

@@ -1,7 +1,5 @@
-/**
- * Joint transforms against an evaluation that shares no code with the builder: Rodrigues' formula
- * on plain arrays.
- */
+/** Joint transforms against an evaluation that shares no code with the builder: Rodrigues' formula on plain arrays. */
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -10,6 +8,7 @@
 namespace tautline::models::testing {
 namespace {
 
+using Triple = std::array<double, 3>;
 using Matrix = std::array<std::array<double, 3>, 3>;
 
 struct Pose {
@@ -23,19 +22,16 @@ Matrix rodrigues(Triple axis, double angle) {
     const Matrix cross{{{0, -axis[2], axis[1]}, {axis[2], 0, -axis[0]}, {-axis[1], axis[0], 0}}};
     const double c = std::cos(angle), s = std::sin(angle);
     Matrix R{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
             R[i][j] = (i == j ? c : 0.0) + s * cross[i][j] + (1 - c) * axis[i] * axis[j];
-        }
-    }
     return R;
 }
 
 Triple times(const Matrix& R, const Triple& v) {
     Triple w{};
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) w[i] += R[i][k] * v[k];
-    }
     return w;
 }
 
@@ -54,9 +50,8 @@ Pose times(const Pose& a, const Pose& b) {
 
 Pose inverse(const Pose& a) {
     Pose b;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) b.R[i][j] = a.R[j][i];
-    }
     b.p = times(b.R, a.p);
     for (double& component : b.p) component = -component;
     return b;
@@ -202,9 +197,8 @@ TEST(JointConvention, CustomJointWithoutCoordinatesIsAWeld) {
     std::string still = spatialTransform;
     for (const char* name : {"q", "r"}) {
         const std::string driven = "<coordinates>" + std::string(name) + "<";
-        for (std::size_t at; (at = still.find(driven)) != std::string::npos;) {
+        for (std::size_t at; (at = still.find(driven)) != std::string::npos;)
             still.replace(at, driven.size(), "<coordinates><");
-        }
     }
     BuiltSystem built(readNew(makeModel("CustomJoint", still)));
     EXPECT_EQ(built.state.getNU(), 0);
@@ -235,9 +229,7 @@ TEST(JointConvention, BuiltInJoints) {
         SCOPED_TRACE(joint.type);
         for (const bool reversed : {false, true}) {
             BuiltSystem built(readNew(makeModel(joint.type, joint.inside, reversed ? swappedFrames : frames)));
-            for (const std::string& name : built.model.getCoordinateNames()) {
-                built.set(name, values.at(name));
-            }
+            for (const std::string& name : built.model.getCoordinateNames()) built.set(name, values.at(name));
             reversed ? expectReversedPose(built, joint.X_FM) : expectPose(built, joint.X_FM);
         }
     }

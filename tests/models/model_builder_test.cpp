@@ -79,7 +79,7 @@ TEST(BuildMultibody, GravityAndMassGiveThePendulumsAcceleration) {
     BuiltSystem pendulum(readNew(text));
     pendulum.set("q", 0.4);
     pendulum.system.realize(pendulum.state, SimTK::Stage::Acceleration);
-    // Inertia 1 about the mass centre, mass 1 at half a metre: -m g l sin q / (I + m l^2).
+    // Inertia 1 about the mass center, mass 1 at half a metre: -m g l sin q / (I + m l^2).
     EXPECT_NEAR(pendulum.state.getUDot()[0], -9.81 * 0.5 * std::sin(0.4) / 1.25, 1e-14);
 }
 

@@ -68,9 +68,9 @@ struct Arm26 {
     SimTK::State state;
 };
 
-/** What the reference can be held to: OpenSim places the tangent points of an oblique cylinder path
-approximately, and a true geodesic is never longer. Its README gives 1e-7, 2e-6 and 2.4e-5 m for lengths, 2e-5
-and 2e-4 m for moment arms, to the digits printed; these bounds are what rounds to them. */
+/** What the reference can be held to: OpenSim places the tangent points of an oblique cylinder path approximately, and
+a true geodesic is never longer. Its README gives 1e-7, 2e-6 and 2.4e-5 m for lengths, 2e-5 and 2e-4 m for moment arms,
+to the digits printed; these bounds are what rounds to them. */
 double getLengthTolerance(const std::string& muscle) {
     return muscle == "BICshort" ? 1e-7 : muscle == "TRIlat" ? 2.5e-6 : 2.45e-5;
 }

@@ -75,9 +75,7 @@ inline std::string makeJoint(const std::string& type, const std::string& name, c
 
 inline std::string makeCoordinates(std::initializer_list<const char*> names) {
     std::string coordinates;
-    for (const char* name : names) {
-        coordinates += "<Coordinate name=\"" + std::string(name) + "\"/>";
-    }
+    for (const char* name : names) coordinates += "<Coordinate name=\"" + std::string(name) + "\"/>";
     return "<coordinates>" + coordinates + "</coordinates>\n";
 }
 

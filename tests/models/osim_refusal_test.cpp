@@ -1,5 +1,4 @@
-/** Every refusal by its message: short edits of one good model, and the files of models/rejected.
- */
+/** Every refusal by its message: short edits of one good model, and the files of models/rejected. */
 #include <filesystem>
 #include <fstream>
 
@@ -74,9 +73,8 @@ const char* const goodText = R"(<OpenSimDocument Version="40000">
 
 std::string replaceAll(std::string text, const std::string& from, const std::string& to) {
     EXPECT_NE(text.find(from), std::string::npos) << from;
-    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
         text.replace(at, from.size(), to);
-    }
     return text;
 }
 
@@ -175,16 +173,14 @@ TEST(OsimRefusal, EachEditHasItsMessage) {
 
 TEST(OsimRefusal, EveryTruncationIsRefused) {
     const std::string good = goodText;
-    for (std::size_t length = 0; length < good.rfind('>'); length += 7) {
+    for (std::size_t length = 0; length < good.rfind('>'); length += 7)
         EXPECT_NE(findRefusal(good.substr(0, length)), "(read)") << length;
-    }
 }
 
 TEST(OsimRefusal, DeepNestingEndsWithAMessage) {
     std::string function = "<Constant><value>1</value></Constant>";
-    for (int depth = 0; depth < 5000; ++depth) {
+    for (int depth = 0; depth < 5000; ++depth)
         function = "<MultiplierFunction><function>" + function + "</function></MultiplierFunction>";
-    }
     const std::string refusal = findRefusal(
         replaceAll(goodText, "<locked>false</locked>",
                    "<prescribed>true</prescribed><prescribed_function>" + function + "</prescribed_function>"));

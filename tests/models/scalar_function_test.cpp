@@ -9,7 +9,7 @@
 namespace tautline::models {
 namespace {
 
-constexpr double tight = 1e-14;
+constexpr double kTight = 1e-14;
 
 TEST(ScalarFunction, IsZeroByDefault) {
     const ScalarFunction zero;
@@ -76,12 +76,12 @@ TEST(SimmSpline, OfTwoKnotsIsTheLine) {
 TEST(SimmSpline, OfThreeKnotsIsTheParabola) {
     const ScalarFunction parabola = ScalarFunction::simmSpline({0.0, 1.0, 3.0}, {0.0, 1.0, 9.0});
     for (double x : {0.0, 0.3, 1.0, 2.0, 3.0}) {
-        EXPECT_NEAR(parabola.calcValue(x), x * x, tight);
-        EXPECT_NEAR(parabola.calcDerivative(x), 2 * x, tight);
-        EXPECT_NEAR(parabola.calcSecondDerivative(x), 2.0, tight);
+        EXPECT_NEAR(parabola.calcValue(x), x * x, kTight);
+        EXPECT_NEAR(parabola.calcDerivative(x), 2 * x, kTight);
+        EXPECT_NEAR(parabola.calcSecondDerivative(x), 2.0, kTight);
     }
-    EXPECT_NEAR(parabola.calcValue(4.0), 15.0, tight) << "9 + 6 (4 - 3)";
-    EXPECT_NEAR(parabola.calcValue(-1.0), 0.0, tight);
+    EXPECT_NEAR(parabola.calcValue(4.0), 15.0, kTight) << "9 + 6 (4 - 3)";
+    EXPECT_NEAR(parabola.calcValue(-1.0), 0.0, kTight);
     EXPECT_EQ(parabola.calcSecondDerivative(4.0), 0.0);
 }
 
@@ -94,11 +94,11 @@ TEST(SimmSpline, RepeatsCubics) {
     for (double knot : x) y.push_back(cubic(knot));
     const ScalarFunction spline = ScalarFunction::simmSpline(x, y);
     for (double at = -1.0; at <= 3.5; at += 0.05) {
-        EXPECT_NEAR(spline.calcValue(at), cubic(at), 20 * tight);
-        EXPECT_NEAR(spline.calcDerivative(at), slope(at), 100 * tight);
-        EXPECT_NEAR(spline.calcSecondDerivative(at), 1.0 - 1.5 * at, 500 * tight);
+        EXPECT_NEAR(spline.calcValue(at), cubic(at), 20 * kTight);
+        EXPECT_NEAR(spline.calcDerivative(at), slope(at), 100 * kTight);
+        EXPECT_NEAR(spline.calcSecondDerivative(at), 1.0 - 1.5 * at, 500 * kTight);
     }
-    EXPECT_NEAR(spline.calcValue(4.5), cubic(3.5) + slope(3.5), 100 * tight);
+    EXPECT_NEAR(spline.calcValue(4.5), cubic(3.5) + slope(3.5), 100 * kTight);
 }
 
 TEST(SimmSpline, FiveKnotsByHand) {
@@ -107,12 +107,12 @@ TEST(SimmSpline, FiveKnotsByHand) {
     // With g0 = g1 + 1/2: 5 g1 + g2 = 1/2 and g2 = -1/2 - g1/2, so g1 = 2/9, g0 = 13/18,
     // g2 = -11/18; y''/6 = g.
     const ScalarFunction spline = ScalarFunction::simmSpline({0.0, 1.0, 2.0, 3.0, 4.0}, {0.0, 0.0, 1.0, 0.0, 0.0});
-    EXPECT_NEAR(spline.calcSecondDerivative(0.0), 6 * 13.0 / 18, tight);
-    EXPECT_NEAR(spline.calcSecondDerivative(1.0), 6 * 2.0 / 9, tight);
-    EXPECT_NEAR(spline.calcSecondDerivative(2.0), -6 * 11.0 / 18, tight);
-    EXPECT_NEAR(spline.calcSecondDerivative(3.0), 6 * 2.0 / 9, tight);
-    EXPECT_NEAR(spline.calcSecondDerivative(4.0), 6 * 13.0 / 18, tight);
-    EXPECT_NEAR(spline.calcDerivative(2.0), 0.0, tight) << "by symmetry";
+    EXPECT_NEAR(spline.calcSecondDerivative(0.0), 6 * 13.0 / 18, kTight);
+    EXPECT_NEAR(spline.calcSecondDerivative(1.0), 6 * 2.0 / 9, kTight);
+    EXPECT_NEAR(spline.calcSecondDerivative(2.0), -6 * 11.0 / 18, kTight);
+    EXPECT_NEAR(spline.calcSecondDerivative(3.0), 6 * 2.0 / 9, kTight);
+    EXPECT_NEAR(spline.calcSecondDerivative(4.0), 6 * 13.0 / 18, kTight);
+    EXPECT_NEAR(spline.calcDerivative(2.0), 0.0, kTight) << "by symmetry";
 }
 
 TEST(SimmSpline, IsTwiceContinuouslyDifferentiableInside) {

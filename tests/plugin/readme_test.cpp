@@ -1,6 +1,5 @@
 /** What the README shows is what the project does. */
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdio>
 #include <fstream>
@@ -8,7 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "support/run_program.h"
+
 namespace {
+
+using tautline::testing::runProgram;
 
 const std::string kRoot = TAUTLINE_SOURCE_DIR;
 
@@ -31,28 +34,27 @@ std::vector<std::string> findBlocks(const std::string& text, const std::string& 
     return blocks;
 }
 
-int run(const std::string& command, std::string& output) {
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    char part[4096];
-    while (std::fgets(part, sizeof part, pipe)) output += part;
-    const int status = pclose(pipe);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-TEST(Readme, ShowsTheExampleThatIsCompiled) {
+TEST(Readme, ShowsTheExamplesThatAreCompiled) {
     const auto blocks = findBlocks(readAll(kRoot + "/README.md"), "cpp");
-    ASSERT_EQ(blocks.size(), 1u);
+    ASSERT_EQ(blocks.size(), 2u);
     EXPECT_EQ(blocks[0], readAll(kRoot + "/simbody_adapter/examples/wrapped_muscle.cpp"));
+    EXPECT_EQ(blocks[1], readAll(kRoot + "/wrapping_core/examples/over_a_cylinder.cpp"));
 }
 
 TEST(Readme, ExampleHoldsTheForearmUp) {
     std::string output;
-    ASSERT_EQ(run(TAUTLINE_EXAMPLE, output), 0) << output;
+    ASSERT_EQ(runProgram(TAUTLINE_EXAMPLE, output), 0) << output;
     double angle = 0, length = 0, tension = 0;
     ASSERT_EQ(std::sscanf(output.c_str(), "elbow %lf rad, muscle %lf m, %lf N", &angle, &length, &tension), 3)
         << output;
     EXPECT_GT(tension, 1);
     EXPECT_GT(length, 0.15);
+}
+
+TEST(Readme, SaysWhatTheCoreExamplePrints) {
+    std::string output;
+    ASSERT_EQ(runProgram(TAUTLINE_CORE_EXAMPLE, output), 0) << output;
+    EXPECT_NE(readAll(kRoot + "/README.md").find("```\n" + output + "```\n"), std::string::npos) << output;
 }
 
 TEST(Readme, CommandsOfTheProgramWork) {
@@ -72,7 +74,7 @@ TEST(Readme, CommandsOfTheProgramWork) {
                 shown == std::string::npos
                     ? command
                     : command.substr(0, shown) + command.substr(command.find(" --out ", shown + 1));
-            EXPECT_EQ(run(runnable, output), 0) << runnable << "\n" << output;
+            EXPECT_EQ(runProgram(runnable, output), 0) << runnable << "\n" << output;
         }
     }
 }
@@ -82,7 +84,8 @@ TEST(Readme, NamesFilesThatExist) {
          {"/models/run", "/tests/run", "/models/figures/path.svg", "/models/elbow.osim", "/models/paraboloid.osim",
           "/models/four_surfaces_implicit.osim", "/models/four_surfaces_parametric.osim",
           "/models/figures/paraboloid_curves.svg", "/models/figures/four_surfaces_curves.svg",
-          "/models/figures/four_surfaces_start.svg", "/models/README.md"})
+          "/models/figures/four_surfaces_start.svg", "/models/README.md", "/bench/README.md",
+          "/wrapping_core/NOTATION.md", "/tests/support/weave_scene.h", "/tests/core/weave_test.cpp"})
         EXPECT_TRUE(std::ifstream(kRoot + file).good()) << file;
 }
 

@@ -10,10 +10,8 @@
 
 namespace tautline::models {
 
-/**
- * Where the bodies and coordinates of a model stand in a SimbodyMatterSubsystem. A light handle to
- * copy; the matter subsystem must outlive it. Unknown names throw ModelError.
- */
+/** Where the bodies and coordinates of a model stand in a SimbodyMatterSubsystem. A light handle to copy; the matter
+subsystem must outlive it. Unknown names throw ModelError. */
 class BuiltModel {
 public:
     struct CoordinateSlot {
@@ -39,11 +37,11 @@ public:
     /** In the order of the file. */
     const std::vector<std::string>& getCoordinateNames() const { return m_coordinateNames; }
 
-    /** Sets all coordinates and speeds to their defaults, driven ones to their motion at the state's time, then
-     * lets the couplers have their way. */
+    /** Sets all coordinates and speeds to their defaults, driven ones to their motion at the state's time, then lets
+    the couplers have their way. */
     void setDefaultPose(SimTK::State& state) const;
-    /** Does not clip to the range, clamped or not. A locked coordinate stays locked at the value; a driven one
-     * goes where its motion says as soon as the state is simulated. */
+    /** Does not clip to the range, clamped or not. A locked coordinate stays locked at the value; a driven one goes
+    where its motion says as soon as the state is simulated. */
     void setCoordinate(SimTK::State& state, const std::string& name, double value) const;
     double getCoordinate(const SimTK::State& state, const std::string& name) const;
     void setCoordinateSpeed(SimTK::State& state, const std::string& name, double speed) const;
@@ -65,22 +63,17 @@ private:
     std::vector<CoordinateCoupler> m_couplers;
 };
 
-/**
- * Adds the bodies, joints, locks, prescribed motions and constraints of a model to a matter
- * subsystem. Every coordinate becomes a q whose u is its derivative. A joint all of whose coordinates are
- * prescribed is driven exactly, by a Motion; other prescribed coordinates by constraints. Forces are not added. The
- * defaults of the model are not those of the system: call BuiltModel::setDefaultPose().
- *
- * @throws ModelError, before anything is added, if bodies are not joined to the ground in a tree,
- * if two turning or two shifting axes of a joint are parallel, or if a joint moves no mass.
- */
+/** Adds the bodies, joints, locks, prescribed motions and constraints of a model to a matter subsystem. Every
+coordinate becomes a q whose u is its derivative. A joint all of whose coordinates are prescribed is driven exactly, by
+a Motion; other prescribed coordinates by constraints. Forces are not added. The defaults of the model are not those of
+the system: call BuiltModel::setDefaultPose().
+
+@throws ModelError, before anything is added, if bodies are not joined to the ground in a tree, if two turning or two
+shifting axes of a joint are parallel, or if a joint moves no mass. */
 BuiltModel buildMultibody(const ModelDescription& model, SimTK::SimbodyMatterSubsystem& matter);
 
 /** Adds the model's gravity. */
 SimTK::Force::Gravity addGravity(const ModelDescription& model, SimTK::GeneralForceSubsystem& forces,
                                  const SimTK::SimbodyMatterSubsystem& matter);
-
-SimTK::Transform toTransform(const RigidOffset& offset);
-SimTK::Vec3 toVec3(const Triple& triple);
 
 }  // namespace tautline::models

@@ -1,4 +1,9 @@
 #pragma once
+/** A musculoskeletal model as plain data: what a model file says, without a multibody system.
+
+Units are SI and radians. Bodies are named; "ground" is the fixed body and is not in the list of bodies. Offset frames
+are already resolved: whatever stood in one is given in its base body. `line` is the line of the element in the source
+file. */
 #include <array>
 #include <limits>
 #include <optional>
@@ -6,25 +11,17 @@
 #include <variant>
 #include <vector>
 
-#include "tautline/models/rigid_offset.h"
 #include "tautline/models/scalar_function.h"
+#include "tautline/types.h"
 
-/**
- * @file
- * A musculoskeletal model as plain data: what a model file says, without a multibody system.
- *
- * Units are SI and radians. Bodies are named; "ground" is the fixed body and is not in the list of
- * bodies. Offset frames are already resolved: whatever stood in one is given in its base body.
- * `line` is the line of the element in the source file.
- */
 namespace tautline::models {
 
-inline constexpr const char* groundName = "ground";
+inline constexpr const char* kGroundName = "ground";
 
 struct Body {
     std::string name;
     double mass = 0.0;
-    Triple massCenter{};
+    Vec3 massCenter = Vec3::Zero();
     /** About the mass center: xx, yy, zz, xy, xz, yz. */
     std::array<double, 6> inertia{};
     int line = 0;
@@ -47,7 +44,7 @@ struct Coordinate {
 struct TransformAxis {
     /** Empty if no coordinate drives the axis: then the function's value at 0 holds always. */
     std::string coordinate;
-    Triple axis{};
+    Vec3 axis = Vec3::Zero();
     ScalarFunction function;
     int line = 0;
 };
@@ -59,9 +56,9 @@ struct Joint {
     std::string name;
     JointType type = JointType::Weld;
     std::string parentBody;
-    RigidOffset parentOffset;
+    Pose parentOffset;
     std::string childBody;
-    RigidOffset childOffset;
+    Pose childOffset;
     std::vector<Coordinate> coordinates;
     /** Custom joints only: three turns, each carrying the next, then three shifts. */
     std::array<TransformAxis, 6> axes;
@@ -82,15 +79,15 @@ struct CoordinateCoupler {
 struct PointConstraint {
     std::string name;
     std::string body1;
-    Triple location1{};
+    Vec3 location1 = Vec3::Zero();
     std::string body2;
-    Triple location2{};
+    Vec3 location2 = Vec3::Zero();
     int line = 0;
 };
 
 using ModelConstraint = std::variant<CoordinateCoupler, PointConstraint>;
 
-/** Axis z, centred. */
+/** Axis z, centered. */
 struct CylinderShape {
     double radius = 0.0;
     double length = 0.0;
@@ -99,7 +96,7 @@ struct SphereShape {
     double radius = 0.0;
 };
 struct EllipsoidShape {
-    Triple semiAxes{};
+    Vec3 semiAxes = Vec3::Zero();
 };
 /** Ring in the xy plane; the path goes through the hole. */
 struct TorusShape {
@@ -131,7 +128,7 @@ struct WrapObject {
     std::string name;
     std::string body;
     /** Pose of the object's frame W in the body. */
-    RigidOffset X_BW;
+    Pose X_BW;
     Quadrant quadrant = Quadrant::All;
     bool active = true;
     WrapShape shape;
@@ -149,14 +146,14 @@ struct ConditionalLocation {
 struct MovingLocation {
     std::string coordinate;
     std::array<ScalarFunction, 3> location_F;
-    RigidOffset X_BF;
+    Pose X_BF;
 };
 
 struct PathPoint {
     std::string name;
     std::string body;
     /** In the body; not used by moving points. */
-    Triple location{};
+    Vec3 location = Vec3::Zero();
     std::variant<FixedLocation, ConditionalLocation, MovingLocation> kind;
     int line = 0;
 };
@@ -165,8 +162,8 @@ enum class WrapMethod { Hybrid, Midpoint, Axial };
 
 /** A geodesic from which the iteration of a path may start, in the frame of the wrap object. */
 struct WrapStart {
-    Triple point{};
-    Triple direction{};
+    Vec3 point = Vec3::Zero();
+    Vec3 direction = Vec3::Zero();
     double length = 0.0;
     int line = 0;
 };
@@ -179,7 +176,7 @@ struct PathWrap {
     /** First and last point between which the path may wrap, counted from 1; -1 is the end. */
     std::array<int, 2> range{-1, -1};
     /** A point near which the path runs at first, in the frame of the wrap object. */
-    std::optional<Triple> hint;
+    std::optional<Vec3> hint;
     std::optional<WrapStart> start;
     int line = 0;
 };
@@ -242,7 +239,7 @@ struct ModelDescription {
     std::string fileName;
     std::string name;
     int documentVersion = 0;
-    Triple gravity{};
+    Vec3 gravity = Vec3::Zero();
     std::vector<Body> bodies;
     std::vector<Joint> joints;
     /** Those that the model enforces. */

@@ -13,13 +13,11 @@
 
 namespace tautline::models {
 
-/**
- * A model as a Simbody system that can be simulated: bodies and joints, gravity, and for each muscle or path
- * spring a cable over its wrap objects with a Hill-type muscle or an elastic string that pulls at it.
- *
- * @throws ModelError as buildMultibody() does, and for a path whose first or last point is conditional,
- * naming the point and its line.
- */
+/** A model as a Simbody system that can be simulated: bodies and joints, gravity, and for each muscle or path spring a
+cable over its wrap objects with a Hill-type muscle or an elastic string that pulls at it.
+
+@throws ModelError as buildMultibody() does, and for a path whose first or last point is conditional, naming the point
+and its line. */
 class ModelSystem {
 public:
     struct MuscleSlot {
@@ -64,14 +62,11 @@ public:
     /** The muscles, then the springs, each in the order of the file. */
     std::vector<PathView> getPaths() const;
 
-    /** Realizes the topology and returns a state in the model's default pose. Call it once everything has
-     * been added to the system. */
+    /** Realizes the topology and returns a state in the model's default pose. Call it once everything has been added to
+    the system. */
     SimTK::State makeDefaultState();
 
-    /**
-     * Moment arm -dl/dq of a muscle about a coordinate [m], coupled coordinates moving along. Needs
-     * Stage::Position.
-     */
+    /** Moment arm -dl/dq of a muscle about a coordinate [m], coupled ones moving along. Needs Stage::Position. */
     double calcMomentArm(const SimTK::State& state, const MuscleSlot& muscle, const std::string& coordinate) const {
         return calcMomentArm(state, muscle.cable, coordinate);
     }

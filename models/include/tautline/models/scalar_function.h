@@ -4,16 +4,14 @@
 
 namespace tautline::models {
 
-/**
- * A function of one variable with two derivatives, as a value.
- *
- * Outside its knots a spline and a piecewise linear function go on straight with their end slopes.
- * Where a derivative jumps (the knots of a piecewise linear function) the value to the right is
- * given; a spline counts its end knots as inside.
- *
- * The makers throw std::invalid_argument if the data make no function: no coefficients, lists of
- * different lengths, fewer than two knots, abscissae that decrease, numbers that are not finite.
- */
+/** A function of one variable with two derivatives, as a value.
+
+Outside its knots a spline and a piecewise linear function go on straight with their end slopes. Where a derivative
+jumps (the knots of a piecewise linear function) the value to the right is given; a spline counts its end knots as
+inside.
+
+The makers throw std::invalid_argument if the data make no function: no coefficients, lists of different lengths, fewer
+than two knots, abscissae that decrease, numbers that are not finite. */
 class ScalarFunction {
 public:
     /** The zero function. */
@@ -24,10 +22,8 @@ public:
     /** Coefficients with the highest power first. */
     static ScalarFunction polynomial(std::vector<double> coefficients);
     static ScalarFunction piecewiseLinear(std::vector<double> x, std::vector<double> y);
-    /**
-     * The cubic spline whose third derivative on the first interval is that of the cubic through
-     * the first four knots, likewise at the end; a parabola for three knots, a line for two.
-     */
+    /** The cubic spline whose third derivative on the first interval is that of the cubic through the first four knots,
+    likewise at the end; a parabola for three knots, a line for two. */
     static ScalarFunction simmSpline(std::vector<double> x, std::vector<double> y);
     /** amplitude sin(omega x + phase) + offset */
     static ScalarFunction sine(double amplitude, double omega, double phase, double offset);

@@ -1,18 +1,13 @@
 #pragma once
-#include <memory>
-#include <optional>
+#include <vector>
 
 #include "tautline/models/model_builder.h"
 #include "tautline/paths/start_hint.h"
-#include "tautline/surfaces/surface.h"
 
 namespace tautline::models {
 
-/**
- * A wrap object of a path, bound to one of its segments. A model file lets a path wrap anywhere between
- * the points of a range; over a motion it does so on one and the same segment, and an obstacle has its
- * place in the order of the path.
- */
+/** A wrap object of a path, bound to one of its segments. A model file lets a path wrap anywhere between the points of
+a range; over a motion it does so on one segment, and an obstacle has its place in the order of the path. */
 struct BoundWrap {
     /** Index into MusclePath::wraps. */
     std::size_t wrap = 0;
@@ -27,17 +22,12 @@ struct BoundWrap {
     int numEngaged = 0, numElsewhere = 0;
 };
 
-/**
- * Binds the active wrap objects of a path, sorted by their place. The segment is the one on which the
- * object is engaged in most of the poses sampled: the default and others over the coordinates' ranges,
- * the same at each call. An object that is never engaged is bound to the segment nearest to it.
- *
- * @param state   of the system in which `model` was built; realized to Model
- */
+/** Binds the active wrap objects of a path, sorted by their place. The segment is the one on which the object is
+engaged in most of the poses sampled: the default and others over the coordinates' ranges, the same at each call. An
+object that is never engaged is bound to the segment nearest to it.
+
+@param state   of the system in which `model` was built; realized to Model */
 std::vector<BoundWrap> bindWraps(const ModelDescription& description, const MusclePath& path, const BuiltModel& model,
                                  const SimTK::State& state);
-
-/** The surface of a wrap object, in its own frame. */
-std::shared_ptr<const Surface> makeSurface(const WrapObject& object);
 
 }  // namespace tautline::models
