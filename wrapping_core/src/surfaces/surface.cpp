@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geodesics/arc_walker.h"
 #include "tautline/error.h"
 
 namespace tautline {
@@ -80,15 +81,11 @@ void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const Ge
                     std::vector<Vec3>& points_S) {
     require(count >= 2, "sampleGeodesic: needs at least 2 points, got ", count);
     points_S.resize(count);
-    GeodesicStart from = start;
-    from.length = start.length / (count - 1);
-    Geodesic piece;
+    ArcWalker walker(surface, start, options, count - 1);
     for (int i = 1; i < count; ++i) {
-        surface.shootGeodesic(from, options, piece);
+        const Geodesic& piece = walker.next();
         if (i == 1) points_S[0] = piece.P.x;
         points_S[i] = piece.Q.x;
-        from.point = piece.endPoint;
-        from.tangent = piece.Q.t;
     }
 }
 
