@@ -25,13 +25,24 @@ public:
     double getLeastFactor() const { return m_leastFactor; }
     std::string getDescription() const;
 
-    Vec3 map(const Vec3& q) const { return m_matrix * q; }
-    Vec3 mapBack(const Vec3& p) const { return m_inverse * p; }
+    // Products are written out: Eigen's are calls at -O2, and geodesics make many.
+    Vec3 map(const Vec3& q) const { return multiply(m_matrix, q); }
+    Vec3 mapBack(const Vec3& p) const { return multiply(m_inverse, p); }
     /** M^-T v: what a gradient becomes. */
-    Vec3 mapGradient(const Vec3& v) const { return m_inverse.transpose() * v; }
-    Mat3 mapHessian(const Mat3& H) const { return m_inverse.transpose() * H * m_inverse; }
+    Vec3 mapGradient(const Vec3& v) const {
+        return {m_inverse.col(0).dot(v), m_inverse.col(1).dot(v), m_inverse.col(2).dot(v)};
+    }
+    /** M^-T H M^-1: what a Hessian becomes. */
+    Mat3 mapHessian(const Mat3& H) const {
+        Mat3 mapped;
+        for (int j = 0; j < 3; ++j) mapped.col(j) = mapGradient(multiply(H, m_inverse.col(j)));
+        return mapped;
+    }
 
 private:
+    static Vec3 multiply(const Mat3& A, const Vec3& v) {
+        return v.x() * A.col(0) + v.y() * A.col(1) + v.z() * A.col(2);
+    }
     void setMatrix(const Mat3& M);
     void setFactors(const Vec3& factors);
 
