@@ -50,7 +50,8 @@ TEST_P(ParametricTwins, AgreeInFramesAndGeodesics) {
     EXPECT_LT(frames, kAgreement);
     EXPECT_LT(ends, kAgreement);
     // The capsule's K has a kink in its slope at the joint, which no error estimate of this order sees.
-    EXPECT_LT(fields, c.name == "Capsule" ? 1e-9 : kAgreement);
+    const bool isCapsule = c.name.find("Capsule") != std::string::npos;
+    EXPECT_LT(fields, isCapsule ? 1e-9 : kAgreement);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ParametricTwins, ::testing::ValuesIn(testing::makeTwinCases()),
@@ -231,24 +232,6 @@ TEST(OffsetSurface, CostsLittleMoreEvaluationsThanItsBase) {
     EXPECT_LT(onOffset, 2 * onBase);
 }
 
-/** An ellipsoid is a sphere stretched, in both forms. */
-TEST(ScaledSurface, OfASphereIsTheEllipsoid) {
-    const Vec3 axes(0.05, 0.03, 0.08);
-    const Ellipsoid ellipsoid(axes);
-    const ScaledImplicitSurface<Sphere> implicitForm(Sphere(1), axes);
-    const ScaledParametricSurface<ParametricSphere> parametricForm(ParametricSphere(1), axes);
-    for (const SurfaceLawSample& sample : testing::makeSamples(ellipsoid, 0.1, Vec3::Zero(), 0.1, {}, 20, kSeed)) {
-        const SurfacePoint p = ellipsoid.findSurfacePoint(sample.p_S);
-        for (const Surface* scaled :
-             {static_cast<const Surface*>(&implicitForm), static_cast<const Surface*>(&parametricForm)}) {
-            Geodesic g, h;
-            ellipsoid.shootGeodesic({p, sample.direction_S, sample.length}, {}, g);
-            scaled->shootGeodesic({scaled->findSurfacePoint(p.p), sample.direction_S, sample.length}, {}, h);
-            EXPECT_LT(calcDifference(g.Q, h.Q, 0.03), kAgreement);
-        }
-    }
-}
-
 TEST(ShapeRefusals, NameTheValueAndTheLimit) {
     const auto refuses = [](const auto& make, const std::string& word) {
         try {
@@ -266,7 +249,6 @@ TEST(ShapeRefusals, NameTheValueAndTheLimit) {
     EXPECT_TRUE(refuses([] { Paraboloid(0, 1); }, "A must be positive"));
     EXPECT_TRUE(refuses([] { OffsetSurface(nullptr, 1); }, "base"));
     EXPECT_TRUE(refuses([] { OffsetSurface(std::make_shared<Sphere>(1), -1); }, "thickness"));
-    EXPECT_TRUE(refuses([] { ScaledImplicitSurface<Sphere>(Sphere(1), Vec3(1, 0, 1)); }, "factor y"));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "support/surface_cases.h"
 #include "tautline/error.h"
 
@@ -61,6 +63,76 @@ TEST(PatchFit, BSplineFitsBetterWithMoreCells) {
     const BSplineFit gaps = fitBSplineHeights(points, 20, 20);  // more unknowns than points
     EXPECT_LT(gaps.report.largest, 1e-10);
     EXPECT_LT((gaps.patch.calcParametric(Vec2(1.2345, 0.7), 0).x.head<2>() - Vec2(1.2345, 0.7)).norm(), 1e-13);
+}
+
+/** Points of a curved sheet in space, no height patch: polynomial in (u, v) of orders 2 and 3, on scattered (u, v). */
+struct SheetCloud {
+    std::vector<Vec2> uv;
+    std::vector<Vec3> points;
+
+    static Vec3 calcPoint(const Vec2& uv) {
+        const double u = uv[0], v = uv[1];
+        return {u + 0.2 * v * v, 0.5 * v - 0.1 * u * u, 0.3 * u * v * v * v - 0.2 * u * u + 0.1};
+    }
+    SheetCloud() {
+        std::mt19937 random(5);
+        std::uniform_real_distribution<double> uniform(0, 1);
+        for (int k = 0; k < 200; ++k) {
+            uv.push_back({1 + 2 * uniform(random), -1 + 1.5 * uniform(random)});
+            points.push_back(calcPoint(uv.back()));
+        }
+    }
+};
+
+TEST(PatchFit, PatchInSpaceRecoversAPolynomialSheet) {
+    const SheetCloud cloud;
+    const ParameterDomain domain{Vec2(1, -1), Vec2(3, 0.5)};
+    const PolynomialFit fit = fitPolynomialPatch(cloud.uv, cloud.points, 2, 3, PolynomialTerms::Tensor, domain, -1);
+    EXPECT_EQ(fit.report.numUnknowns, 12);
+    EXPECT_LT(fit.report.largest, 1e-13);
+    EXPECT_FALSE(fit.patch.isHeightPatch());
+    EXPECT_EQ(fit.patch.getNormalSign(), -1);
+    for (double u = 1; u <= 3; u += 0.37)
+        for (double v = -1; v <= 0.5; v += 0.29)
+            EXPECT_LT((fit.patch.calcParametric(Vec2(u, v), 0).x - SheetCloud::calcPoint(Vec2(u, v))).norm(), 1e-13);
+    // Without the terms of degree four the rest is the best of what is left, and said.
+    const PolynomialFit less = fitPolynomialPatch(cloud.uv, cloud.points, 2, 3, PolynomialTerms::TotalDegree, domain);
+    EXPECT_EQ(less.report.numUnknowns, 9);
+    EXPECT_GT(less.report.rms, 1e-4);
+    EXPECT_NEAR(less.report.rms, std::sqrt(less.report.sumOfSquares / 200), 1e-15);
+}
+
+TEST(PatchFit, BSplinePatchInSpaceRecoversACubicSheetAndFitsAShellBetterWithMoreCells) {
+    const SheetCloud cloud;
+    const ParameterDomain domain{Vec2(1, -1), Vec2(3, 0.5)};
+    const BSplineFit fit = fitBSplinePatch(cloud.uv, cloud.points, 5, 4, domain, -1);
+    EXPECT_EQ(fit.report.numUnknowns, 20);
+    EXPECT_LT(fit.report.largest, 1e-12);
+    EXPECT_EQ(fit.patch.getNormalSign(), -1);
+    EXPECT_LT((fit.patch.calcParametric(Vec2(2.2, 0.1), 0).x - SheetCloud::calcPoint(Vec2(2.2, 0.1))).norm(), 1e-12);
+
+    std::vector<Vec2> uv;
+    std::vector<Vec3> shell;
+    for (int i = 0; i <= 20; ++i)
+        for (int j = 0; j <= 20; ++j) {
+            uv.push_back({0.1 * i, 0.05 * j});
+            shell.push_back({std::cos(uv.back()[0]), std::sin(uv.back()[0]), uv.back()[1]});
+        }
+    const double few = fitBSplinePatch(uv, shell, 5, 4, findDomain(uv)).report.rms,
+                 more = fitBSplinePatch(uv, shell, 9, 4, findDomain(uv)).report.rms;
+    EXPECT_LT(more, 0.1 * few);  // error of cubics: h^4
+}
+
+TEST(PatchFit, PatchInSpaceRefusesCoordinatesThatDoNotMatch) {
+    SheetCloud cloud;
+    const ParameterDomain domain = findDomain(cloud.uv);
+    cloud.uv.pop_back();
+    EXPECT_THROW(fitPolynomialPatch(cloud.uv, cloud.points, 2, 2, PolynomialTerms::Tensor, domain), InvalidInput);
+    EXPECT_THROW(fitBSplinePatch(cloud.uv, cloud.points, 4, 4, domain), InvalidInput);
+    cloud.points.pop_back();
+    EXPECT_THROW(fitBSplinePatch(cloud.uv, cloud.points, 3, 4, domain), InvalidInput);
+    cloud.uv[7][1] = kNaN;
+    EXPECT_THROW(fitPolynomialPatch(cloud.uv, cloud.points, 2, 2, PolynomialTerms::Tensor, domain), InvalidInput);
 }
 
 TEST(PatchFit, RefusesWhatItCannotFit) {

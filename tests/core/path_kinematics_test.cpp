@@ -5,6 +5,7 @@
 
 #include "support/random.h"
 #include "support/shapes.h"
+#include "tautline/error.h"
 #include "tautline/paths/path_solver.h"
 
 namespace tautline::testing {
@@ -146,6 +147,29 @@ TEST(PathKinematics, DrawingPointsRunAlongThePath) {
     EXPECT_GT(polygon, path.length * (1 - 0.01 * 0.01 / 24));
     EXPECT_LT((points.front() - scene.pose.X_GE.front().p).norm(), 1e-15);
     EXPECT_LT((points.back() - scene.pose.X_GE.back().p).norm(), 1e-15);
+}
+
+TEST(PathKinematics, RefusesTooFewVelocitiesAndAnglesThatAreNotPositive) {
+    const MovingScene scene(403);
+    const PathSolution path = solvePath(scene.problem, scene.pose);
+    const std::vector<SpatialVelocity> few(scene.velocity.begin(), scene.velocity.end() - 1);
+    const auto findRefusal = [](const auto& call) -> std::string {
+        try {
+            call();
+        } catch (const InvalidInput& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_EQ(findRefusal([&] { calcLengthRate(path, scene.pose, few); }),
+              "length rate: got " + std::to_string(few.size()) + " velocities for " +
+                  std::to_string(scene.velocity.size()) + " elements");
+    std::vector<Vec3> points;
+    for (const double angle : {0.0, -0.5, kNaN}) {
+        const std::string refusal =
+            findRefusal([&] { calcDrawingPoints(path, scene.problem, scene.pose, angle, points); });
+        EXPECT_EQ(refusal.rfind("drawing points: maxAngle must be positive, but is ", 0), 0u) << refusal;
+    }
 }
 
 }  // namespace

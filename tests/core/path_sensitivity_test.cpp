@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <random>
 
+#include "tautline/error.h"
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/paths/path_solver.h"
 #include "tautline/surfaces/cylinder.h"
@@ -204,6 +206,38 @@ TEST(PathPredictor, MakesTheErrorOfTheGuessSecondOrderInTheStep) {
             previousPlain = plain, previousAhead = error;
         }
     }
+}
+
+std::string findRefusal(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const InvalidInput& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+// Symptom (2026-11-25): a segmentation fault for a path that had not been solved, and for too few velocities.
+TEST(PathSensitivity, RefusesWhatDoesNotBelongTogether) {
+    MixedScene scene;
+    PathSensitivity sensitivity;
+    PathVariation variation;
+    const std::vector<SpatialVelocity> all(7), few(3);
+    EXPECT_EQ(findRefusal([&] { sensitivity.calcVariation(all, variation); }), "path sensitivity: no path was set");
+    EXPECT_EQ(findRefusal([&] { sensitivity.setPath(scene.problem, scene.pose, PathSolution()); }),
+              "path sensitivity: problem of 7 elements, but a path of 0 and 7 poses");
+    EXPECT_EQ(findRefusal([&] { sensitivity.calcVariation(all, variation); }), "path sensitivity: no path was set");
+    PathSolution cut = scene.path;
+    cut.segments.pop_back();
+    EXPECT_EQ(findRefusal([&] { sensitivity.setPath(scene.problem, scene.pose, cut); }),
+              "path sensitivity: contacts make 6 straight segments, but the path has 5");
+    sensitivity.setPath(scene.problem, scene.pose, scene.path);
+    EXPECT_EQ(findRefusal([&] { sensitivity.calcVariation(few, variation); }),
+              "path sensitivity: got 3 velocities for 7 elements");
+    PathSolution next = scene.path;
+    EXPECT_EQ(findRefusal([&] { sensitivity.predictStarts(few, 0.1, next); }),
+              "path sensitivity: got 3 velocities for 7 elements");
+    EXPECT_TRUE(sensitivity.calcVariation(all, variation));
 }
 
 }  // namespace

@@ -360,7 +360,7 @@ public:
     ImplicitValue calcImplicit(const Vec3& p) const override { return m_cylinder.calcImplicit(p); }
     double getSize() const override { return m_cylinder.getSize(); }
     std::string getDescription() const override { return "short cylinder"; }
-    bool isInDomain(const SurfacePoint& point) const override { return std::abs(point.p.z()) < 0.2; }
+    double calcDomainMargin(const SurfacePoint& point) const override { return 0.2 - std::abs(point.p.z()); }
 
 private:
     Cylinder m_cylinder{0.4};

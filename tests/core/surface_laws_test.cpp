@@ -5,6 +5,8 @@
 
 #include "support/surface_cases.h"
 #include "tautline/error.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/paths/path_verification.h"
 
 namespace tautline {
 namespace {
@@ -186,6 +188,43 @@ TEST(FunctionSurfaces, DifferencesAreGoodToSomeTrillionths) {
     EXPECT_LT(halfHessians, 1e-12);
     EXPECT_LT(first, 1e-12);
     EXPECT_LT(second, 5e-12);
+}
+
+/** An egg by a formula; how often it was asked says which checks were made. */
+TEST(FunctionSurfaces, PromisedConvexAreTrustedAndNotChecked) {
+    const Vec3 axes(0.3, 0.2, 0.25);
+    int calls = 0;
+    const auto formula = [&](const Vec3& p) -> ImplicitValue {
+        ++calls;
+        return Ellipsoid(axes).calcImplicit(p);
+    };
+    const auto make = [&](bool isConvex) {
+        ImplicitFunctionSurface egg("egg", 0.2, ImplicitFunctionSurface::FullFunction(formula));
+        return std::make_shared<ImplicitFunctionSurface>(egg.setConvex(isConvex));
+    };
+    EXPECT_FALSE(ImplicitFunctionSurface("egg", 0.2, ImplicitFunctionSurface::FullFunction(formula)).isConvex());
+    EXPECT_TRUE(make(true)->isConvex());
+    EXPECT_FALSE(make(false)->isConvex());
+    double length[2];
+    int asked[2];
+    for (const bool isConvex : {false, true}) {
+        PathProblem problem;
+        problem.addPoint("origin");
+        problem.addObstacle("egg", make(isConvex), Vec3(0, 0, 1));
+        problem.addPoint("insertion");
+        PathPose pose;
+        pose.X_GE = {Pose(Vec3(-1, 0, 0.1)), Pose(), Pose(Vec3(1, 0.1, 0))};
+        const PathSolution path = solvePath(problem, pose);
+        ASSERT_EQ(path.status, PathStatus::Solved);
+        ASSERT_TRUE(path.contacts[1].isTouched);
+        length[isConvex] = path.length;
+        calls = 0;
+        EXPECT_TRUE(verifyPath(problem, pose, path).isMinimum());
+        asked[isConvex] = calls;
+    }
+    EXPECT_NEAR(length[0], length[1], 1e-12);
+    EXPECT_EQ(asked[true], 0);
+    EXPECT_GT(asked[false], 0);
 }
 
 TEST(SurfaceLawsReport, RefusesASampleWithoutLength) {

@@ -84,7 +84,14 @@ TEST_P(SurfaceMeshTest, PointsLieOnTheSurfaceAndInItsDomain) {
 
 TEST_P(SurfaceMeshTest, SurfacesWithoutAnEndAreClosed) {
     const SurfaceMesh mesh = calcMesh();
-    for (const auto& [edge, count] : countEdges(mesh)) EXPECT_EQ(count, 1) << edge.first << " " << edge.second;
+    const auto edges = countEdges(mesh);
+    for (const auto& [edge, count] : edges) {
+        // Where a crest grazes a face of the lattice so that all four of its edges are cut, the facets on both sides of
+        // the crest meet in one edge: passed twice, and twice the other way.
+        const auto back = edges.find({edge.second, edge.first});
+        const bool isCrest = count == 2 && back != edges.end() && back->second == 2;
+        EXPECT_TRUE(count == 1 || isCrest) << edge.first << " " << edge.second << ": " << count;
+    }
     EXPECT_EQ(findRim(mesh).empty(), !endsSomewhere(GetParam().name));
 }
 

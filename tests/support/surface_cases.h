@@ -78,6 +78,17 @@ inline std::vector<Vec3> makeTorusPoints(double R, double a, double b) {
     return points;
 }
 
+/** Factors along the axes of a body in which the surface's frame lies askew. */
+inline Mat3 makeBodyScaling(const Vec3& factors) {
+    const Mat3 R_BS = Eigen::AngleAxisd(0.7, Vec3(2, -1, 3).normalized()).toRotationMatrix();
+    return R_BS.transpose() * factors.asDiagonal() * R_BS;
+}
+
+inline std::vector<Vec3> mapPoints(const Mat3& M, std::vector<Vec3> points) {
+    for (Vec3& p : points) p = (M * p).eval();
+    return points;
+}
+
 inline std::vector<TwinCase> makeTwinCases() {
     std::vector<TwinCase> cases;
     const Vec3 axes(0.05, 0.03, 0.08), long_(1, 0.2, 0.3);
@@ -128,6 +139,17 @@ inline std::vector<TwinCase> makeTwinCases() {
          0.5,
          0.4,
          {Vec3(0.48, 0, 0), Vec3(-0.48, 0, 0), Vec3(0, 0.18, 0)}});
+    const Mat3 body = makeBodyScaling(Vec3(1.3, 0.8, 1.0)), strong = makeBodyScaling(Vec3(2.5, 0.5, 1.0));
+    cases.push_back({"ShearedTorus", std::make_shared<ScaledImplicitSurface<Torus>>(Torus(0.3, 0.1), body),
+                     std::make_shared<ScaledParametricSurface<ParametricTorus>>(ParametricTorus(0.3, 0.1), body), 0.5,
+                     0.4, mapPoints(body, makeTorusPoints(0.3, 0.1, 0.1))});
+    cases.push_back({"StronglySheared", std::make_shared<ScaledImplicitSurface<Ellipsoid>>(Ellipsoid(axes), strong),
+                     std::make_shared<ScaledParametricSurface<ParametricEllipsoid>>(ParametricEllipsoid(axes), strong),
+                     0.1, 0.08, mapPoints(strong, makeAxisPoints(axes))});
+    cases.push_back(
+        {"ShearedCapsule", std::make_shared<ScaledImplicitSurface<Capsule>>(Capsule(0.1, 0.3, 0.12), body),
+         std::make_shared<ScaledParametricSurface<ParametricCapsule>>(ParametricCapsule(0.1, 0.3, 0.12), body), 0.3,
+         0.3, mapPoints(body, {Vec3(0, 0, 0.27), Vec3(0, 0, -0.27), Vec3(0.1, 0, joint), Vec3(0, 0.1, 0)})});
     return cases;
 }
 
@@ -243,6 +265,31 @@ inline std::vector<SurfaceCase> makeSurfaceCases() {
          0.3,
          Vec3::Zero(),
          0.3});
+    // Of unknown class, scaled in the form that they have.
+    const Mat3 body = makeBodyScaling(Vec3(1.3, 0.8, 1.0));
+    cases.push_back({"ScaledPear",
+                     makeScaledSurface(std::make_shared<ImplicitFunctionSurface>(makePear()), body),
+                     {},
+                     0.3,
+                     Vec3::Zero(),
+                     0.3});
+    cases.push_back({"ScaledSharedEllipsoid",
+                     makeScaledSurface(std::make_shared<ParametricEllipsoid>(Vec3(0.05, 0.03, 0.08)), body),
+                     mapPoints(body, makeAxisPoints(Vec3(0.05, 0.03, 0.08))), 0.1, Vec3::Zero(), 0.15});
+    cases.push_back(
+        {"ScaledOffsetTorus",
+         makeScaledSurface(std::make_shared<OffsetSurface>(std::make_shared<ParametricTorus>(0.3, 0.1), 0.02), body),
+         mapPoints(body, {Vec3(0.42, 0, 0), Vec3(0.18, 0, 0)}), 0.4, Vec3::Zero(), 0.4});
+    cases.push_back(
+        {"OffsetScaledTorus",
+         std::make_shared<OffsetSurface>(makeScaledSurface(std::make_shared<ParametricTorus>(0.3, 0.1), body), 0.02),
+         mapPoints(body, {Vec3(0.42, 0, 0), Vec3(0.18, 0, 0)}), 0.4, Vec3::Zero(), 0.4});
+    cases.push_back({"ScaledPatchFromBelow",
+                     makeScaledSurface(std::make_shared<PolynomialPatch>(makePolynomialPatch(4, -1)), body),
+                     {Vec3::Zero()},
+                     0.7,
+                     Vec3::Zero(),
+                     0.3});
     const ParameterDomain square{Vec2(-1, -1), Vec2(1, 1)};
     cases.push_back({"FormulaSheet",
                      std::make_shared<ParametricFunctionSurface>(makeParametricSurface(

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geodesics/arc_walker.h"
+
 namespace tautline {
 namespace {
 
@@ -168,19 +170,12 @@ std::vector<GeodesicPlace> findPressureChanges(const Surface& surface, const Geo
 
 std::optional<GeodesicPlace> findDomainExit(const Surface& surface, const GeodesicStart& start,
                                             const GeodesicOptions& options) {
-    const auto margin = [&surface](const Station& at) {
-        const double value = surface.calcDomainMargin(at.point);
-        return value >= 0 && !surface.isInDomain(at.point) ? -kInfinity : value;
-    };
+    const auto margin = [&surface](const Station& at) { return surface.calcDomainMargin(at.point); };
     ArcWalk walk(surface, start, options, margin);
     const double first = walk.getStart().value;
     if (!(first >= 0)) return makePlace(walk.getStart());
     std::optional<GeodesicPlace> place;
-    if (first == kInfinity) {  // no edge anywhere, unless a surface without margins says otherwise at the end
-        Geodesic arc;
-        surface.shootGeodesic(start, options, arc);
-        if (surface.isInDomain(arc.endPoint)) return place;
-    }
+    if (first == kInfinity) return place;  // no edge anywhere
     walk.forEachZero([&](const Station& at) {
         place = makePlace(at);
         return false;
@@ -189,17 +184,10 @@ std::optional<GeodesicPlace> findDomainExit(const Surface& surface, const Geodes
 }
 
 double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const Geodesic& geodesic) {
-    constexpr GeodesicOptions kWalking{1e-6, 200};
     double largest = std::max({geodesic.P.kappaN, geodesic.Q.kappaN, geodesic.maxKappaN});
     const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * std::abs(start.length) / surface.getSize()));
-    GeodesicStart from = start;
-    from.length /= pieces;
-    Geodesic piece;
-    for (int i = 1; i < pieces; ++i) {
-        surface.shootGeodesic(from, kWalking, piece);
-        largest = std::max(largest, piece.Q.kappaN);
-        from.point = piece.endPoint, from.tangent = piece.Q.t;
-    }
+    ArcWalker walker(surface, start, kAlongArc, pieces);
+    for (int i = 1; i < pieces; ++i) largest = std::max(largest, walker.next().Q.kappaN);
     return largest;
 }
 

@@ -49,9 +49,13 @@ bool ColdSearch::findPath(const PathProblem& problem, const PathPose& pose, cons
         double push = kStringPush;
         for (int i = 0; i < kMaxStringPushes && pushOffConjugatePoint(problem, pose, push, path); ++i, push *= 2)
             if (tighten(kPatient)) return true;
+        const StringFault fault = m_string.findFault(problem);
+        const bool isCaught = fault.kind == StringFault::Kind::Edge && path.fault.kind == StringFault::Kind::Edge;
+        path.fault = fault;
+        if (isCaught) return false;  // a finer string will be too
     }
     // A string in which nothing is wrong may still slide, slower than was asked for.
-    if (m_string.findFault(problem).kind == StringFault::Kind::None && tighten(kPatient)) return true;
+    if (path.fault.kind == StringFault::Kind::None && tighten(kPatient)) return true;
     path.fault = m_string.findFault(problem);
     return false;
 }

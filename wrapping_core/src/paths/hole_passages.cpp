@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geodesics/arc_walker.h"
 #include "paths/obstacle_walk.h"
 
 namespace tautline {
@@ -15,7 +16,10 @@ public:
     void start(const Vec3& p_S) { m_last = p_S; }
     void goTo(const Vec3& p_S) {
         const int crossings = m_surface.countHoleCrossings(m_last, p_S);
-        if (crossings != 0) m_passage.through_S = m_last + m_last.z() / (m_last.z() - p_S.z()) * (p_S - m_last);
+        if (crossings != 0) {
+            const Vec3 axis = m_surface.getHoleAxis(), step = p_S - m_last;
+            m_passage.through_S = m_last - axis.dot(m_last) / axis.dot(step) * step;
+        }
         m_passage.count += crossings;
         m_last = p_S;
     }
@@ -31,14 +35,8 @@ void followArc(const Surface& surface, const ObstacleContact& contact, PassageCo
     const double size = surface.getSize();
     const int pieces =
         contact.start.length > size ? 1 + static_cast<int>(std::min(1000.0, 2 * contact.start.length / size)) : 1;
-    GeodesicStart from = contact.start;
-    from.length /= pieces;
-    Geodesic piece;
-    for (int i = 1; i < pieces; ++i) {
-        surface.shootGeodesic(from, GeodesicOptions{1e-4, 200}, piece);
-        counter.goTo(piece.Q.x);
-        from.point = piece.endPoint, from.tangent = piece.Q.t;
-    }
+    ArcWalker walker(surface, contact.start, kRoughlyAlong, pieces);
+    for (int i = 1; i < pieces; ++i) counter.goTo(walker.next().Q.x);
     counter.goTo(contact.geodesic.Q.x);
 }
 
@@ -55,7 +53,8 @@ void visitHoles(const PathProblem& problem, const PathPose& pose, const PathSolu
 }  // namespace
 
 bool hasHole(const Surface& surface) {
-    return surface.countHoleCrossings(-Vec3::UnitZ(), Vec3::UnitZ()) != 0;
+    const Vec3 axis = surface.getHoleAxis();
+    return surface.countHoleCrossings(-axis, axis) != 0;
 }
 
 HolePassage calcHolePassage(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "geodesics/arc_walker.h"
+
 namespace tautline {
 
 using Condition = PathVerification::Condition;
@@ -96,8 +98,7 @@ StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const 
     };
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (problem.getElement(e).isPoint() || !path.contacts[e].isTouched) continue;
-        sampleGeodesic(*problem.getElement(e).surface, path.contacts[e].start, GeodesicOptions{1e-6, 200}, kSamples,
-                       arc_S);
+        sampleGeodesic(*problem.getElement(e).surface, path.contacts[e].start, kAlongArc, kSamples, arc_S);
         for (int other = 0; other < problem.getNumElements(); ++other)
             if (other != e && !problem.getElement(other).isPoint() && path.contacts[other].isTouched &&
                 isBelow(e, other))

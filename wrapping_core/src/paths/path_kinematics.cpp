@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "geodesics/arc_walker.h"
+#include "paths/velocity_check.h"
+
 namespace tautline {
 namespace {
 
@@ -13,6 +16,7 @@ void applyForce(const Pose& X_GE, const Vec3& point_G, const Vec3& force_G, Spat
 }  // namespace
 
 double calcLengthRate(const PathSolution& path, const PathPose& pose, const std::vector<SpatialVelocity>& V_GE) {
+    requireVelocities(V_GE, pose, "length rate");
     double rate = 0;
     for (const StraightSegment& segment : path.segments) {
         const int from = segment.fromElement, to = segment.toElement;
@@ -32,6 +36,7 @@ void calcUnitForces(const PathSolution& path, const PathPose& pose, std::vector<
 
 void calcDrawingPoints(const PathSolution& path, const PathProblem& problem, const PathPose& pose, double maxAngle,
                        std::vector<Vec3>& points_G) {
+    require(maxAngle > 0, "drawing points: maxAngle must be positive, but is ", maxAngle);
     points_G.clear();
     std::vector<Vec3> arc_S;
     for (const StraightSegment& segment : path.segments) {
@@ -43,8 +48,7 @@ void calcDrawingPoints(const PathSolution& path, const PathProblem& problem, con
         const double curvature = std::max({std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN), std::abs(arc.maxKappaN),
                                            std::abs(arc.P.tauG), std::abs(arc.Q.tauG)});
         const int count = 2 + static_cast<int>(std::min(1000.0, arc.length * curvature / maxAngle));
-        sampleGeodesic(*problem.getElement(segment.toElement).surface, contact.start, GeodesicOptions{1e-6, 1000},
-                       count, arc_S);
+        sampleGeodesic(*problem.getElement(segment.toElement).surface, contact.start, kAlongArc, count, arc_S);
         for (int i = 1; i + 1 < count; ++i) points_G.push_back(pose.X_GE[segment.toElement] * arc_S[i]);
     }
 }

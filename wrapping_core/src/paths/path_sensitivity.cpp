@@ -1,7 +1,7 @@
 #include "tautline/paths/path_sensitivity.h"
 
 #include "paths/path_error.h"
-#include "tautline/error.h"
+#include "paths/velocity_check.h"
 
 namespace tautline {
 namespace {
@@ -41,8 +41,14 @@ PathSensitivity::~PathSensitivity() = default;
 
 void PathSensitivity::setPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     Workspace& w = *m_workspace;
-    w.problem = &problem, w.pose = &pose;
+    w.pose = nullptr;
+    const std::size_t numElements = static_cast<std::size_t>(problem.getNumElements());
+    require(path.contacts.size() == numElements && pose.X_GE.size() == numElements, "path sensitivity: problem of ",
+            numElements, " elements, but a path of ", path.contacts.size(), " and ", pose.X_GE.size(), " poses");
     w.chain.build(problem, pose, path.contacts);
+    require(path.segments.size() == w.chain.segments.size(), "path sensitivity: contacts make ",
+            w.chain.segments.size(), " straight segments, but the path has ", path.segments.size());
+    w.problem = &problem, w.pose = &pose;
     for (ChainContact& contact : w.chain.contacts) {
         contact.geodesic = path.contacts[contact.element].geodesic;
         contact.P = contact.geodesic.P.reexpressedBy(pose.X_GE[contact.element]);
@@ -102,7 +108,9 @@ void PathSensitivity::Workspace::calcForceRates(const std::vector<SpatialVelocit
 
 bool PathSensitivity::calcVariation(const std::vector<SpatialVelocity>& V_GE, PathVariation& variation) {
     Workspace& w = *m_workspace;
-    const std::size_t n = w.pose->X_GE.size();
+    require(w.pose != nullptr, "path sensitivity: no path was set");
+    requireVelocities(V_GE, *w.pose, "path sensitivity");
+    const std::size_t n = V_GE.size();
     variation.xiRate.assign(n, Vec4::Zero());
     variation.PRate.assign(n, Vec3::Zero());
     variation.QRate.assign(n, Vec3::Zero());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geodesics/arc_walker.h"
 #include "tautline/geodesics/geodesic_events.h"
 #include "tautline/paths/contact_switch.h"
 
@@ -11,7 +12,6 @@ namespace {
 
 using Condition = PathVerification::Condition;
 
-constexpr GeodesicOptions kWalking{1e-6, 200};  ///< for looking along an arc whose ends are known exactly
 constexpr double kRounding = 1e-9;  ///< of curvatures and heights in sizes: what differences of solved places leave
 constexpr double kNeutral = 1e-9;   ///< relative second variation below which a path is neither stable nor unstable
 
@@ -37,9 +37,8 @@ bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSeg
 bool isInDomain(const Surface& surface, const ObstacleContact& contact) {
     const double margin =
         std::min(surface.calcDomainMargin(contact.start.point), surface.calcDomainMargin(contact.geodesic.endPoint));
-    if (!(margin >= 0) || !surface.isInDomain(contact.start.point) || !surface.isInDomain(contact.geodesic.endPoint))
-        return false;
-    return margin == kInfinity || !findDomainExit(surface, contact.start, kWalking);
+    if (!(margin >= 0)) return false;
+    return margin == kInfinity || !findDomainExit(surface, contact.start, kAlongArc);
 }
 
 Condition verifyContact(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
@@ -95,10 +94,10 @@ Vec3 findPlaceOnArc(const Surface& surface, const ObstacleContact& contact, Cond
     const auto orStart = [&](const std::optional<GeodesicPlace>& place) {
         return place ? place->point.p : contact.geodesic.P.x;
     };
-    if (condition == Condition::OutsideDomain) return orStart(findDomainExit(surface, contact.start, kWalking));
-    if (condition == Condition::ConjugatePoint) return orStart(findConjugatePoint(surface, contact.start, kWalking));
+    if (condition == Condition::OutsideDomain) return orStart(findDomainExit(surface, contact.start, kAlongArc));
+    if (condition == Condition::ConjugatePoint) return orStart(findConjugatePoint(surface, contact.start, kAlongArc));
     if (condition == Condition::PullsOutward) {
-        const std::vector<GeodesicPlace> changes = findPressureChanges(surface, contact.start, kWalking);
+        const std::vector<GeodesicPlace> changes = findPressureChanges(surface, contact.start, kAlongArc);
         if (!changes.empty()) return changes.front().point.p;
     }
     return isAtEnd ? contact.geodesic.Q.x : contact.geodesic.P.x;

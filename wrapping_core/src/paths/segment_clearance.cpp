@@ -34,13 +34,13 @@ void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double
 /** A line that is below no more than an extension of the surface is clear of it. */
 void ignoreExtension(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
                      LineClearance& clearance) {
-    if (!(clearance.distance < 0) || surface.calcDomainMargin(clearance.C) == kInfinity) return;
+    if (!(clearance.distance < 0) || !surface.hasEdge()) return;
     const double s = surface.findLowestPoint(A_S, e_S, length);
     Vec3 N;
     const double lowest = surface.calcHeightOverDomain(A_S + s * e_S, N);
     if (!(lowest < 0))
         clearance.distance = lowest;
-    else if (surface.calcDomainMargin(clearance.C) < 0)
+    else if (!surface.isInDomain(clearance.C))
         takeHeight(surface, A_S, e_S, s, clearance);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geodesics/arc_walker.h"
 #include "paths/hole_passages.h"
 
 namespace tautline {
@@ -27,11 +28,11 @@ Vec3 makeCylindrical(double radius, double azimuth, double z) {
     return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
 }
 
-/** Where the line passes the hole, moved towards the axis until it lies clear of the surface. */
+/** Where the line passes the hole, moved towards the centre until it lies clear of the surface. */
 Vec3 findHolePoint(const Surface& surface, const Chord& chord) {
-    const Vec3 step = chord.B_S - chord.A_S;
-    Vec3 point = chord.A_S + chord.A_S.z() / (chord.A_S.z() - chord.B_S.z()) * step, N;
-    point.z() = 0;
+    const Vec3 axis = surface.getHoleAxis(), step = chord.B_S - chord.A_S;
+    Vec3 point = chord.A_S - axis.dot(chord.A_S) / axis.dot(step) * step, N;
+    point -= axis.dot(point) * axis;
     for (int i = 0; i < kHoleSteps && surface.calcHeight(point, N) < 0; ++i) point *= 0.8;
     return point;
 }
@@ -67,17 +68,18 @@ void guide(const Surface& surface, const WindAround& hint, const Chord& chord, s
     }
 }
 
-/** Points of a ring's tube in the half plane of one azimuth. */
+/** Points of a ring's tube in the half plane of the hole's axis and a place beside it. */
 struct TubePoints {
     Vec3 inner, outer, top, bottom;
 
-    TubePoints(const Surface& surface, double azimuth) {
+    TubePoints(const Surface& surface, const Vec3& beside_S) {
         const double size = surface.getSize(), far = kFar * size;
-        inner = surface.findSurfacePoint(makeCylindrical(1e-3 * size, azimuth, 0)).p;
-        outer = surface.findSurfacePoint(makeCylindrical(far, azimuth, 0)).p;
+        const Vec3 axis = surface.getHoleAxis(), aside = makeTangent(beside_S, axis);
+        inner = surface.findSurfacePoint(1e-3 * size * aside).p;
+        outer = surface.findSurfacePoint(far * aside).p;
         const Vec3 middle = 0.5 * (inner + outer);
-        top = surface.findSurfacePoint(middle + far * Vec3::UnitZ()).p;
-        bottom = surface.findSurfacePoint(middle - far * Vec3::UnitZ()).p;
+        top = surface.findSurfacePoint(middle + far * axis).p;
+        bottom = surface.findSurfacePoint(middle - far * axis).p;
     }
 };
 
@@ -87,7 +89,8 @@ hole. */
 void guide(const Surface& surface, const ThreadHole& hint, const Chord& chord, std::vector<Vec3>& guides_S) {
     const int count = std::abs(hint.passages);
     const bool isUpward = hint.passages >= 0;
-    const TubePoints atA(surface, calcAzimuth(chord.A_S)), atB(surface, calcAzimuth(chord.B_S));
+    const Vec3 axis = surface.getHoleAxis();
+    const TubePoints atA(surface, chord.A_S), atB(surface, chord.B_S);
     if (count == 0) {
         if (surface.countHoleCrossings(chord.A_S, chord.B_S) != 0) guides_S.push_back(atA.outer);
         return;
@@ -97,13 +100,13 @@ void guide(const Surface& surface, const ThreadHole& hint, const Chord& chord, s
         guides_S.insert(guides_S.end(), {leave, tube.outer, enter});
     };
     const Vec3 through = count == 1 ? Vec3(Vec3::Zero()) : atA.inner;
-    if ((chord.A_S.z() > 0) == isUpward) goRound(atA);
+    if ((axis.dot(chord.A_S) > 0) == isUpward) goRound(atA);
     guides_S.push_back(through);
     for (int i = 1; i < count; ++i) {
         goRound(atA);
         guides_S.push_back(through);
     }
-    if ((chord.B_S.z() < 0) == isUpward) goRound(atB);
+    if ((axis.dot(chord.B_S) < 0) == isUpward) goRound(atB);
 }
 
 int countAskedPassages(const Surface& surface, const StartHint& hint, const Chord& chord) {
@@ -159,7 +162,7 @@ StartCourse calcPreviousCourse(const PathProblem& problem, const PathPose& pose,
         if (element.isPoint())
             points = {Vec3::Zero()};
         else if (contact.isTouched && contact.start.length > 0)
-            sampleGeodesic(*element.surface, contact.start, GeodesicOptions{1e-4, 200}, kArcGuides, points);
+            sampleGeodesic(*element.surface, contact.start, kRoughlyAlong, kArcGuides, points);
         else if (contact.isTouched)
             points = {contact.start.point.p};
         else if (contact.passage.count != 0)

@@ -57,7 +57,7 @@ struct OffsetGeodesicEquations {
         const SurfacePoint C = calcFoot(y);
         const DarbouxFrame below = base.calcFrame(C, y.segment<3>(5));
         const RaisedShape shape(below, h);
-        const Vec3 velocity = ((1 - h * below.kappaB) * below.t - h * below.tauG * below.B) / shape.determinant;
+        const Vec3 velocity = calcFootDisplacement(below, h, below.t);
         Vec2 rates = Vec2::Zero();
         if (hasCoordinates) base.calcCoordinateRates(C, velocity, rates);
         const double K = below.calcGaussianCurvature() / shape.determinant;
@@ -155,14 +155,11 @@ ImplicitValue OffsetSurface::calcImplicit(const Vec3& p) const {
     DarbouxFrame frame;
     findFoot(*m_base, p, C, frame);
     const double d = (p - C.p).dot(frame.N);
-    // W/(1 + d W) of the 2 x 2 shape operator W = [-kappaN, tauG; tauG, -kappaB] in {t, B}
-    const double W11 = -frame.kappaN, W12 = frame.tauG, W22 = -frame.kappaB, K = W11 * W22 - W12 * W12;
-    const double determinant = 1 + d * (W11 + W22) + d * d * K;
-    const double H11 = (W11 + d * K) / determinant, H12 = W12 / determinant, H22 = (W22 + d * K) / determinant;
+    const RaisedShape shape(frame, d);  // of the parallel surface through p: the Hessian of the distance
     const Mat3 mixed = frame.t * frame.B.transpose();
-    return {
-        d - m_thickness, frame.N,
-        H11 * frame.t * frame.t.transpose() + H12 * (mixed + mixed.transpose()) + H22 * frame.B * frame.B.transpose()};
+    return {d - m_thickness, frame.N,
+            shape.tauG * (mixed + mixed.transpose()) - shape.kappaN * frame.t * frame.t.transpose() -
+                shape.kappaB * frame.B * frame.B.transpose()};
 }
 
 /** The distance itself where p has a foot, else the base's estimate. */

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geodesics/arc_walker.h"
 #include "tautline/error.h"
 
 namespace tautline {
@@ -46,9 +47,12 @@ void Surface::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance&
 
 double Surface::calcHeightOverDomain(const Vec3& p_S, Vec3& N_S) const {
     const double height = calcHeight(p_S, N_S);
-    if (!(height < 0)) return height;
-    const bool hasEdge = calcDomainMargin(SurfacePoint{p_S}) != kInfinity;
-    return hasEdge && calcDomainMargin(findSurfacePoint(p_S)) < 0 ? kInfinity : height;
+    if (!(height < 0) || !hasEdge()) return height;
+    return isInDomain(findSurfacePoint(p_S)) ? height : kInfinity;
+}
+
+bool Surface::hasEdge() const {
+    return calcDomainMargin(SurfacePoint()) != kInfinity;
 }
 
 double Surface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
@@ -87,15 +91,11 @@ void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const Ge
                     std::vector<Vec3>& points_S) {
     require(count >= 2, "sampleGeodesic: needs at least 2 points, got ", count);
     points_S.resize(count);
-    GeodesicStart from = start;
-    from.length = start.length / (count - 1);
-    Geodesic piece;
+    ArcWalker walker(surface, start, options, count - 1);
     for (int i = 1; i < count; ++i) {
-        surface.shootGeodesic(from, options, piece);
+        const Geodesic& piece = walker.next();
         if (i == 1) points_S[0] = piece.P.x;
         points_S[i] = piece.Q.x;
-        from.point = piece.endPoint;
-        from.tangent = piece.Q.t;
     }
 }
 

@@ -8,7 +8,8 @@ namespace tautline {
 the power of the forces below at any path error.
 @param X_GE   poses of the elements for which the path was solved
 @param V_GE   their spatial velocities in ground, one per element
-@return dL/dt [m/s] */
+@return dL/dt [m/s]
+@throws InvalidInput unless there is one velocity per pose */
 double calcLengthRate(const PathSolution& path, const PathPose& pose, const std::vector<SpatialVelocity>& V_GE);
 
 /** Force and moment (about each element's origin, in ground) that the path puts on each element at unit
@@ -17,7 +18,7 @@ tension (thesis Sec. 6.3, with e in place of t): they balance at any path error,
 void calcUnitForces(const PathSolution& path, const PathPose& pose, std::vector<SpatialForce>& F_GE);
 
 /** Points of the path for drawing, in ground: ends of straight segments and, on each arc, points no farther
-apart than `maxAngle` [rad] of turning. */
+apart than `maxAngle` [rad] of turning. @throws InvalidInput unless maxAngle > 0 */
 void calcDrawingPoints(const PathSolution& path, const PathProblem& problem, const PathPose& pose, double maxAngle,
                        std::vector<Vec3>& points_G);
 

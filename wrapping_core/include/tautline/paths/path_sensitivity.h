@@ -31,11 +31,13 @@ public:
     ~PathSensitivity();
 
     /** Takes the path. All arguments must describe one solve and outlive the calls below.
-    @param path   status Solved, or any path with small path error: the results are those of eps = const */
+    @param path   status Solved, or any path with small path error: the results are those of eps = const
+    @throws InvalidInput if the path is empty or another problem's */
     void setPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path);
 
     /** @param V_GE   velocities of the elements, one per element, in ground
-    @return false if the Jacobian is singular there (a path on the verge of instability); rates are then zero */
+    @return false if the Jacobian is singular there (a path on the verge of instability); rates are then zero
+    @throws InvalidInput unless a path was set and there is one velocity per element */
     bool calcVariation(const std::vector<SpatialVelocity>& V_GE, PathVariation& variation);
 
     /** Moves the starts of the arcs ahead, so that the error of a continued solve begins at second order in the step

@@ -20,7 +20,7 @@ const char* getName(PathStatus status);
 
 /** How a path goes through an obstacle's hole, between the fixed points or touched obstacles beside it. */
 struct HolePassage {
-    int count = 0;                  ///< along +z of S less against it
+    int count = 0;                  ///< along the hole's axis less against it
     int from = -1, to = -1;         ///< elements beside: where this portion of the path begins and ends
     Vec3 A_S = Vec3::Zero();        ///< where it begins
     Vec3 B_S = Vec3::Zero();        ///< where it ends

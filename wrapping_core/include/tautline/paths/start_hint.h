@@ -24,7 +24,7 @@ struct WindAround {
     double turns;
 };
 
-/** The path goes through the surface's hole this many times, along +z of S if positive. */
+/** The path goes through the surface's hole this many times, along the hole's axis (+z of a ring's S) if positive. */
 struct ThreadHole {
     int passages;
 };

@@ -36,6 +36,7 @@ public:
     int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
         return m_base->countHoleCrossings(A_S, B_S);
     }
+    Vec3 getHoleAxis() const override { return m_base->getHoleAxis(); }
 
     ImplicitValue calcImplicit(const Vec3& p) const;
 

@@ -26,6 +26,7 @@ public:
     int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
         return m_twin.countHoleCrossings(A_S, B_S);
     }
+    Vec3 getHoleAxis() const override { return m_twin.getHoleAxis(); }
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override {
         return calcCoordinates(m_twin.findSurfacePoint(p_S).p);
     }

@@ -32,7 +32,7 @@ struct BSplineFit {
 /** Fits x(u, v) to points with known surface coordinates.
 @param uv, points   as many of each, at least as many as there are terms, and not all on a curve that one of the terms
                     misses; InvalidInput otherwise
-@param domain       of the patch; by default the rectangle that holds all uv */
+@param domain       of the patch, such as findDomain(uv) */
 PolynomialFit fitPolynomialPatch(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int orderU, int orderV,
                                  PolynomialTerms terms, const ParameterDomain& domain, double normalSign = 1);
 

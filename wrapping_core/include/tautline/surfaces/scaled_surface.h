@@ -1,114 +1,93 @@
 #pragma once
-/** Surfaces stretched along the axes of S: p = diag(sx, sy, sz) q with q on the base surface. */
+/** Surfaces under a linear map: p = M q with q on the base surface, as models are scaled to subjects. A model that is
+scaled by the factors s along the axes of a body scales a surface whose frame S lies in the body by the rotation R_BS by
+
+    M = R_BS^T diag(s) R_BS,
+
+so that S keeps its orientation. Convex bases stay convex; holes and domains go along. */
+#include <memory>
 #include <utility>
 
-#include "tautline/error.h"
 #include "tautline/surfaces/implicit_surface.h"
+#include "tautline/surfaces/linear_map.h"
 #include "tautline/surfaces/parametric_surface.h"
 
 namespace tautline {
-namespace detail {
 
-/** Scale factors, their check, and what both forms share. */
-template <class Base>
-class Scaling {
+/** What scaled surfaces of both forms share; `Form` is the ImplicitShape or ParametricShape that they derive from. */
+template <class Form, class Base>
+class ScaledForm : public Form {
 public:
-    Scaling(Base base, const Vec3& factors) : m_base(std::move(base)), m_factors(factors) {
-        for (int i = 0; i < 3; ++i)
-            require(std::isfinite(factors[i]) && factors[i] > 0, "scaled surface: factor ", "xyz"[i],
-                    " must be positive and finite, but is ", factors[i]);
-        m_inverse = factors.cwiseInverse();
+    const Mat3& getMatrix() const { return m_map.getMatrix(); }
+    double getSize() const override { return m_base.getSize() * m_map.getLeastFactor(); }
+    std::string getDescription() const override {
+        return m_base.getDescription() + " scaled by " + m_map.getDescription();
+    }
+    bool isConvex() const override { return m_base.isConvex(); }
+    double calcDomainMargin(const SurfacePoint& point) const override {
+        return m_base.calcDomainMargin({m_map.mapBack(point.p), point.uv, point.chart});
+    }
+    Vec3 getHoleAxis() const override { return m_map.mapGradient(m_base.getHoleAxis()).normalized(); }
+    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
+        return m_base.countHoleCrossings(m_map.mapBack(A_S), m_map.mapBack(B_S));
     }
     /** A height of the base is a function whose gradient there is unit: first order, and exact in sign. */
-    double calcHeight(const Vec3& p, Vec3& N) const {
-        const double height = m_base.calcHeight(m_inverse.cwiseProduct(p), N);
-        N = m_inverse.cwiseProduct(N).eval();
-        const double slope = N.norm();
-        N /= slope;
+    double calcHeight(const Vec3& p_S, Vec3& N_S) const override {
+        const double height = m_base.calcHeight(m_map.mapBack(p_S), N_S);
+        N_S = m_map.mapGradient(N_S);
+        const double slope = N_S.norm();
+        N_S /= slope;
         return height / slope;
     }
-    std::string describe() const {
-        std::ostringstream text;
-        text << m_base.getDescription() << " scaled by (" << m_factors.x() << ", " << m_factors.y() << ", "
-             << m_factors.z() << ")";
-        return text.str();
-    }
-    double calcSize() const { return m_base.getSize() * m_factors.minCoeff(); }
+
+protected:
+    ScaledForm(Base base, const LinearMap& map) : m_base(std::move(base)), m_map(map) {}
 
     Base m_base;
-    Vec3 m_factors, m_inverse;
+    LinearMap m_map;
 };
 
-}  // namespace detail
-
-/** An implicit surface stretched: f(diag(s)^-1 p). `Base` is an ImplicitShape (Sphere, Torus, ...), by value. */
+/** An implicit surface under a linear map: f(M^-1 p) = 0. `Base` is an ImplicitShape (Sphere, Torus, ...), by value. */
 template <class Base>
-class ScaledImplicitSurface : public ImplicitShape<ScaledImplicitSurface<Base>> {
+class ScaledImplicitSurface final : public ScaledForm<ImplicitShape<ScaledImplicitSurface<Base>>, Base> {
 public:
-    /** @param factors   along x, y, z of S, positive; InvalidInput otherwise */
-    ScaledImplicitSurface(Base base, const Vec3& factors) : m_scaling(std::move(base), factors) {}
-
-    double getSize() const override { return m_scaling.calcSize(); }
-    std::string getDescription() const override { return m_scaling.describe(); }
-    bool isConvex() const override { return m_scaling.m_base.isConvex(); }
-    double calcDomainMargin(const SurfacePoint& point) const override {
-        return m_scaling.m_base.calcDomainMargin({m_scaling.m_inverse.cwiseProduct(point.p)});
-    }
-    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
-        return m_scaling.m_base.countHoleCrossings(m_scaling.m_inverse.cwiseProduct(A_S),
-                                                   m_scaling.m_inverse.cwiseProduct(B_S));
-    }
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_scaling.calcHeight(p_S, N_S); }
+    /** @param map   M or three factors along x, y, z of S; InvalidInput as LinearMap says */
+    ScaledImplicitSurface(Base base, const LinearMap& map)
+        : ScaledForm<ImplicitShape<ScaledImplicitSurface>, Base>(std::move(base), map) {}
 
     /** By the chain rule; f stays a length by the least factor. */
     ImplicitValue calcImplicit(const Vec3& p) const {
-        const Vec3& w = m_scaling.m_inverse;
-        const double least = m_scaling.m_factors.minCoeff();
-        const ImplicitValue base = m_scaling.m_base.calcImplicit(w.cwiseProduct(p));
-        return {least * base.f, least * w.cwiseProduct(base.gradient),
-                least * (w.asDiagonal() * base.hessian * w.asDiagonal())};
+        const ImplicitValue base = this->m_base.calcImplicit(this->m_map.mapBack(p));
+        const double least = this->m_map.getLeastFactor();
+        return {least * base.f, least * this->m_map.mapGradient(base.gradient),
+                least * this->m_map.mapHessian(base.hessian)};
     }
-
-private:
-    detail::Scaling<Base> m_scaling;
 };
 
-/** A parametric surface stretched: diag(s) x(u, v). `Base` is a ParametricShape, by value. */
+/** A parametric surface under a linear map: M x(u, v). `Base` is a ParametricShape, by value. */
 template <class Base>
-class ScaledParametricSurface : public ParametricShape<ScaledParametricSurface<Base>> {
+class ScaledParametricSurface final : public ScaledForm<ParametricShape<ScaledParametricSurface<Base>>, Base> {
 public:
-    /** @param factors   along x, y, z of S, positive; InvalidInput otherwise */
-    ScaledParametricSurface(Base base, const Vec3& factors) : m_scaling(std::move(base), factors) {}
-
-    double getSize() const override { return m_scaling.calcSize(); }
-    std::string getDescription() const override { return m_scaling.describe(); }
-    bool isConvex() const override { return m_scaling.m_base.isConvex(); }
-    double calcDomainMargin(const SurfacePoint& point) const override {
-        return m_scaling.m_base.calcDomainMargin({m_scaling.m_inverse.cwiseProduct(point.p), point.uv, point.chart});
-    }
-    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
-        return m_scaling.m_base.countHoleCrossings(m_scaling.m_inverse.cwiseProduct(A_S),
-                                                   m_scaling.m_inverse.cwiseProduct(B_S));
-    }
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_scaling.calcHeight(p_S, N_S); }
+    /** @param map   M or three factors along x, y, z of S; InvalidInput as LinearMap says */
+    ScaledParametricSurface(Base base, const LinearMap& map)
+        : ScaledForm<ParametricShape<ScaledParametricSurface>, Base>(std::move(base), map) {}
 
     ParametricValue calcParametric(const Vec2& uv, int chart) const {
-        const Vec3& f = m_scaling.m_factors;
-        const ParametricValue s = m_scaling.m_base.calcParametric(uv, chart);
-        return {f.cwiseProduct(s.x),   f.cwiseProduct(s.xu),  f.cwiseProduct(s.xv),
-                f.cwiseProduct(s.xuu), f.cwiseProduct(s.xuv), f.cwiseProduct(s.xvv)};
+        const ParametricValue s = this->m_base.calcParametric(uv, chart);
+        const LinearMap& map = this->m_map;
+        return {map.map(s.x), map.map(s.xu), map.map(s.xv), map.map(s.xuu), map.map(s.xuv), map.map(s.xvv)};
     }
     Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const {
-        return m_scaling.m_base.calcNearbyParameters(m_scaling.m_inverse.cwiseProduct(p_S), chart);
+        return this->m_base.calcNearbyParameters(this->m_map.mapBack(p_S), chart);
     }
-    double getNormalSign() const { return m_scaling.m_base.getNormalSign(); }
+    double getNormalSign() const { return this->m_base.getNormalSign(); }
     int chooseChart(const Vec3& p_S, const Vec3& t_S, int current) const {
-        return m_scaling.m_base.chooseChart(m_scaling.m_inverse.cwiseProduct(p_S),
-                                            m_scaling.m_inverse.cwiseProduct(t_S), current);
+        return this->m_base.chooseChart(this->m_map.mapBack(p_S), this->m_map.mapBack(t_S), current);
     }
-
-private:
-    detail::Scaling<Base> m_scaling;
 };
+
+/** Any surface under a linear map, a user's own included, in the form that it has (the implicit one if both).
+@throws InvalidInput if base is null or has neither form, and as LinearMap */
+std::shared_ptr<const Surface> makeScaledSurface(std::shared_ptr<const Surface> base, const LinearMap& map);
 
 }  // namespace tautline

@@ -80,17 +80,22 @@ public:
     presses on it everywhere: such checks are then skipped. */
     virtual bool isConvex() const { return false; }
 
-    /** How often the segment A B passes the surface's hole: 1 along +z of S, -1 against it. A surface with a hole has
-    it about the z axis, spanned by a disc in the plane z = 0 whose rim lies inside the tube. */
+    /** How often the segment A B passes the surface's hole: 1 along the hole's axis, -1 against it. A disc about the
+    origin and across the axis, whose rim lies inside the tube, spans the hole. */
     virtual int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const;
+
+    /** Unit normal of that disc. */
+    virtual Vec3 getHoleAxis() const { return Vec3::UnitZ(); }
 
     /** How far inside the domain on which the surface is defined the point lies: smooth across the domain's edge, there
     zero, negative outside, in a unit of the surface's own choice; infinite where there is no edge. */
     virtual double calcDomainMargin(const SurfacePoint&) const { return kInfinity; }
 
-    /** True where (u, v) or p lies in the domain, edges included. Override the margin instead: where only this one is,
-    arcs are judged by their ends. */
-    virtual bool isInDomain(const SurfacePoint& point) const { return calcDomainMargin(point) >= 0; }
+    /** False if the surface is defined everywhere. */
+    bool hasEdge() const;
+
+    /** True where (u, v) or p lies in the domain, edges included. */
+    bool isInDomain(const SurfacePoint& point) const { return calcDomainMargin(point) >= 0; }
 
     /** Rates of (u, v) of a point that moves along the surface with a tangential velocity.
     @return false, and nothing set, on surfaces without coordinates */
