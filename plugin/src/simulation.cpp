@@ -66,6 +66,8 @@ private:
                 return "split";
             case ContactEvent::Kind::LeftHole:
                 return "left_hole";
+            case ContactEvent::Kind::Slipped:
+                return "slipped";
         }
         return "";
     }
@@ -228,7 +230,7 @@ void integrate(ModelSystem& model, const State& initialState, const SimulationOp
     SimTK::TimeStepper stepper(model.getSystem(), integrator);
     stepper.setReportAllSignificantStates(true);
     stepper.initialize(initialState);
-    const int numRows = std::max(1, static_cast<int>(std::ceil(options.duration / options.interval - 1e-9)));
+    const int numRows = options.calcNumRows();
     recorder.recordRow(stepper.getState());
     for (int row = 1; row <= numRows; ++row) {
         // Times as multiples, so that they do not drift.
@@ -248,6 +250,7 @@ void integrate(ModelSystem& model, const State& initialState, const SimulationOp
 
 SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excitation>& excitations,
                           const SimulationOptions& options, const std::function<void(double)>& reportProgress) {
+    options.validate();
     SimulationResult result;
     const std::vector<ModelSystem::PathView> paths = model.getPaths();
     for (const ModelSystem::PathView& path : paths) path.cable.resetStatistics();
