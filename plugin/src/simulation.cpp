@@ -51,6 +51,10 @@ public:
         using Kind = ContactEvent::Kind;
         if (event.kind == Kind::Made) ++m_result.summaries[path].contactsMade;
         if (event.kind == Kind::Lost) ++m_result.summaries[path].contactsLost;
+        if (event.kind == Kind::Slipped) {
+            ++m_result.summaries[path].slips;
+            m_result.summaries[path].slippedLength += event.lengthBefore - event.lengthAfter;
+        }
         m_result.events += toText(event.time) + "," + m_paths[path].path + "," +
                            m_paths[path].cable.getElementName(event.obstacle) + "," + describeKind(event.kind) + "\n";
     }

@@ -14,7 +14,8 @@ namespace tautline {
 /** What the path of a muscle or spring did over a simulation. */
 struct PathSummary {
     CableStatistics statistics;
-    int contactsMade = 0, contactsLost = 0;
+    int contactsMade = 0, contactsLost = 0, slips = 0;
+    double slippedLength = 0;      ///< by which the slips have shortened it [m]
     std::string firstDegradation;  ///< status, reason and time of the first degraded step
 };
 

@@ -228,7 +228,9 @@ Real CableImpl::calcStabilityWitness(const State& state) const {
     const CablePath& start = m_state.getStart(state);
     Real margin = calcMargin(m_state.getPath(state));
     if (start.solution.status == PathStatus::NotMinimum && !start.pose.X_GE.empty())
-        margin -= kGrowth * std::min<Real>(calcMargin(start), 0);
+        margin -= kGrowth * std::min<Real>(calcMargin(start), kSlipMargin);
+    else
+        margin -= kSlipMargin;
     return margin == 0 ? -kTiny : margin;
 }
 
@@ -318,7 +320,7 @@ void CableImpl::solveKept(const CablePath& start, CableWorkspace& workspace, Cab
     PathSolution& solution = path.solution;
     solution = start.solution;
     workspace.solver.solveKeepingContacts(m_problem, path.pose, solution);
-    if (isStablePath(m_problem, path.pose, solution)) return;
+    if (isHoldingPath(m_problem, path.pose, solution)) return;
     PathSolution followed = start.solution;
     if (isGoodStart(start) && followPath(workspace.solver, m_problem, start.pose, path.pose, followed))
         solution = followed;
@@ -412,6 +414,9 @@ PathStatus CableImpl::calcStatus(const State& state) const {
             return PathStatus::Solved;
         case Condition::OutsideDomain:
             return PathStatus::LeftDomain;
+        case Condition::Unstable:
+            if (calcPathStability(m_problem, getPose(state), path).holds()) return PathStatus::Solved;
+            [[fallthrough]];
         default:
             return PathStatus::NotMinimum;
     }

@@ -57,7 +57,7 @@ either side. @return the obstacle at which the path was a saddle, if it is now a
 int leaveSaddle(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     constexpr double kRounding = 1e-12, kPushes[] = {0, 0.3, -0.3, 1, -1};
     const PathStability stability = calcPathStability(problem, pose, path);
-    if (stability.isStable()) return -1;
+    if (stability.holds()) return -1;
     for (const double push : kPushes) {
         PathSolution next = path;
         if (push != 0) pushArc(problem, stability.element, push, next);
@@ -77,8 +77,8 @@ Settlement solveAnew(PathSolver& solver, const PathProblem& problem, const PathP
     if (next.status == PathStatus::NotConverged) return {};
     Settlement settlement;
     settlement.isAnew = true;
-    if (path.status == PathStatus::NotConverged || !(std::abs(next.length / path.length - 1) < kContinuous))
-        settlement.slippedAt = findFirstTouched(path);
+    // An end that has just gone inside loses its contact without a jump.
+    if (!(std::abs(next.length / path.length - 1) < kContinuous)) settlement.slippedAt = findFirstTouched(path);
     path = next;
     return settlement;
 }

@@ -181,7 +181,8 @@ public:
     SimTK::Real getLength(const SimTK::State& state) const;
     PathStatus getStatus(const SimTK::State& state) const;
     /** As getStatus(), with all conditions judged also while contacts are fixed. An arc just below zero length is no
-    fault then: between events the event finder watches it. A path that has left a ring since the step before is
+    fault then, nor a path just beyond the loss of its stability (kSlipMargin): between events the event finder
+    watches them. A path that has left a ring since the step before is
     NotMinimum. */
     PathStatus calcStatus(const SimTK::State& state) const;
     /** max |eps|, dimensionless. */
