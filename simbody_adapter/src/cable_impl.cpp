@@ -364,8 +364,11 @@ void CableImpl::handleContactEvent(State& state) const {
     const PathSolution start = m_state.getStart(state).solution;
     PathSolution after = before;
     if (before.status == PathStatus::NotConverged) after.contacts = start.contacts;
-    // What the step began from knows how the cable went through rings.
-    for (int e = 0; e < getNumElements(); ++e) after.contacts[e].passage = start.contacts[e].passage;
+    for (int e = 0; e < getNumElements(); ++e) {
+        after.contacts[e].isSwitchedOff = before.contacts[e].isSwitchedOff;
+        // What the step began from knows how the cable went through rings.
+        if (!start.contacts[e].isSwitchedOff) after.contacts[e].passage = start.contacts[e].passage;
+    }
     const Settlement settlement = settleContacts(workspace.solver, m_problem, pose, after);
     // Another handler may have settled this one's contact already.
     if (!settlement.isAnew && !hasLeftAnyHole(before) && before.status == PathStatus::Solved) return;

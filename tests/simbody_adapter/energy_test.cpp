@@ -125,6 +125,7 @@ struct EnergyBook {
 EnergyBook keepBook(SwingingMass& scene, Real accuracy, Real finalTime) {
     SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
     integrator.setAccuracy(accuracy);
+    integrator.setMaximumStepSize(0.01);
     integrator.setReturnEveryInternalStep(true);
     SimTK::TimeStepper stepper(scene.system, integrator);
     stepper.setReportAllSignificantStates(true);

@@ -1,11 +1,13 @@
 #include "tautline/paths/contact_settling.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "paths/geodesic_variations.h"
 #include "paths/obstacle_walk.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_stability.h"
+#include "tautline/paths/path_verification.h"
 
 namespace tautline {
 namespace {
@@ -25,6 +27,12 @@ int findFirstTouched(const PathSolution& path) {
     for (std::size_t e = 0; e < path.contacts.size(); ++e)
         if (path.contacts[e].isTouched) return static_cast<int>(e);
     return -1;
+}
+
+/** Whether an end is inside an obstacle that is still touched: no path is over it. */
+bool isSwallowed(const PathSolution& path) {
+    return std::any_of(path.contacts.begin(), path.contacts.end(),
+                       [](const ObstacleContact& contact) { return contact.isTouched && contact.isSwitchedOff; });
 }
 
 /** @return true if no witness is left below zero */
@@ -52,49 +60,74 @@ bool isMinimum(const PathSolution& path) {
     return path.status == PathStatus::Solved || path.status == PathStatus::EndInside;
 }
 
-/** The solver goes downhill from the saddle by itself; where it does not come to a shorter path, it is pushed off to
-either side. @return the obstacle at which the path was a saddle, if it is now a minimum that is no longer; else -1 */
+/** Lets the solver go on from a path that is no minimum. @return true if it has come to one that is no longer */
+bool goOn(PathSolver& solver, const PathProblem& problem, const PathPose& pose, const PathSolution& from,
+          PathSolution& path) {
+    constexpr double kRounding = 1e-12;
+    PathSolution next = from;
+    solver.solve(problem, pose, next);
+    if (!isMinimum(next) || !(next.length <= (1 + kRounding) * path.length)) return false;
+    path = next;
+    return true;
+}
+
+/** The solver goes downhill from a saddle by itself; where it does not come to a shorter path, it is pushed off to
+either side. @return the obstacle at which the path was a saddle, if it is now a minimum; else -1 */
 int leaveSaddle(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
-    constexpr double kRounding = 1e-12, kPushes[] = {0, 0.3, -0.3, 1, -1};
     const PathStability stability = calcPathStability(problem, pose, path);
     if (stability.holds()) return -1;
-    for (const double push : kPushes) {
-        PathSolution next = path;
-        if (push != 0) pushArc(problem, stability.element, push, next);
-        solver.solve(problem, pose, next);
-        if (!isMinimum(next) || !(next.length <= (1 + kRounding) * path.length)) continue;
-        path = next;
-        return stability.element;
+    for (const double push : {0.0, 0.3, -0.3, 1.0, -1.0}) {
+        PathSolution pushed = path;
+        if (push != 0) pushArc(problem, stability.element, push, pushed);
+        if (goOn(solver, problem, pose, pushed, path)) return stability.element;
     }
     return -1;
 }
 
-/** Lets the solver find a contact set. */
-Settlement solveAnew(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
-    constexpr double kContinuous = 1e-9;  // of the length
+/** A contact just made may break other conditions of a minimum. @return true if it did and does no longer */
+bool leaveFalseContact(PathSolver& solver, const PathProblem& problem, const PathPose& pose, const PathSolution& before,
+                       PathSolution& path) {
+    const PathVerification verification = verifyPath(problem, pose, path);
+    if (verification.isMinimum() || verification.condition == PathVerification::Condition::Unstable) return false;
+    const int e = verification.element;
+    if (!path.contacts[e].isTouched || before.contacts[e].isTouched) return false;
+    return goOn(solver, problem, pose, PathSolution(path), path);
+}
+
+/** Lets the solver find a contact set. @return true if it has come to a path */
+bool solveAnew(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     PathSolution next = path;
     solver.solve(problem, pose, next);
-    if (next.status == PathStatus::NotConverged) return {};
-    Settlement settlement;
-    settlement.isAnew = true;
-    // An end that has just gone inside loses its contact without a jump.
-    if (!(std::abs(next.length / path.length - 1) < kContinuous)) settlement.slippedAt = findFirstTouched(path);
+    if (next.status == PathStatus::NotConverged) return false;
     path = next;
-    return settlement;
+    return true;
+}
+
+/** Whether a string that was where it could not stay, or that has jumped, has slipped: it has not if it had only been
+watched on a side where it does not pass. */
+bool hasSlipped(const PathProblem& problem, const PathPose& pose, const PathSolution& before,
+                const PathSolution& after) {
+    constexpr double kContinuous = 1e-9;  // of the length
+    if (!(std::abs(after.length / before.length - 1) < kContinuous)) return true;
+    return before.status != PathStatus::NotConverged && !calcPathStability(problem, pose, before).holds();
 }
 
 }  // namespace
 
 Settlement settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PathSolution before = path;
+    const bool hasWitnesses = path.status != PathStatus::NotConverged || isSwallowed(path);
     Settlement settlement;
-    if (path.status != PathStatus::NotConverged && switchContacts(solver, problem, pose, path)) {
+    if (hasWitnesses && switchContacts(solver, problem, pose, path)) {
+        settlement.isAnew = leaveFalseContact(solver, problem, pose, before, path);
         settlement.slippedAt = leaveSaddle(solver, problem, pose, path);
     } else {
         path = before;
-        settlement = solveAnew(solver, problem, pose, path);
+        settlement.isAnew = solveAnew(solver, problem, pose, path);
+        if (settlement.isAnew) settlement.slippedAt = findFirstTouched(before);
     }
     settlement.isAnew = settlement.isAnew || settlement.slippedAt >= 0 || !haveSameContacts(before, path);
+    if (!hasSlipped(problem, pose, before, path)) settlement.slippedAt = -1;
     return settlement;
 }
 

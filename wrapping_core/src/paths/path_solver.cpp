@@ -136,10 +136,11 @@ bool PathSolver::findKeptPath(const PathProblem& problem, const PathPose& pose, 
 }
 
 /** Switches off the obstacles in which an end of their strand lies: no string lies over them. The side on which one was
-passed before ends with that: an end may come out anywhere. */
+passed before, or the way through its hole, ends with that: an end may come out anywhere. */
 void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
     Vec3 N_S;
     for (ObstacleContact& contact : path.contacts) {
+        if (contact.isSwitchedOff) contact.passage = HolePassage();
         if (contact.isSwitchedOff && !contact.isTouched) contact.clearance = LineClearance();
         contact.isSwitchedOff = false;
     }

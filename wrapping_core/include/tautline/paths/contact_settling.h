@@ -13,8 +13,8 @@ struct Settlement {
 to no end, lets the solver find a contact set from here. A path that is then a saddle is left for the shorter one to
 which a string slips from it. For event handlers: the path that they leave is the one next to where they stopped, not
 the one that a search from elsewhere would find.
-@param path   in: solved with its contacts kept, or, of status NotConverged, the path from which that failed; out: as
-in, or solved anew */
+@param path   in: solved with its contacts kept, or, of status NotConverged, the path from which that failed, with what
+is switched off at this pose; out: as in, or solved anew */
 Settlement settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 }  // namespace tautline
