@@ -29,15 +29,18 @@ namespace {
 
 constexpr Real kBetweenEvents = -1e-6;  ///< arcs just below zero, in sizes, which the event finder watches
 
-bool hasLeftAnyHole(const PathSolution& path) {
-    return std::any_of(path.contacts.begin(), path.contacts.end(),
-                       [](const ObstacleContact& contact) { return contact.hasLeftHole; });
-}
-
 /** Whether a path may be followed from there. */
 bool isGoodStart(const CablePath& start) {
     return !start.pose.X_GE.empty() && start.solution.status != PathStatus::NotConverged &&
            start.solution.status != PathStatus::NotMinimum;
+}
+
+/** For settling contacts, to rounding: what is left of the path error turns a long segment off a thin obstacle by more
+than the tolerance of contact. */
+PathSolver makeSettlingSolver(PathSolverOptions options) {
+    constexpr double kSettled = 1e-13;
+    options.pathErrorTolerance = std::min(options.pathErrorTolerance, kSettled);
+    return PathSolver(options);
 }
 
 /** The answer for a pose that is not finite: nothing to draw, nothing that pulls. */
@@ -330,8 +333,9 @@ void CableImpl::solveKept(const CablePath& start, CableWorkspace& workspace, Cab
 
 PathSolution CableImpl::calcSettledPath(const State& state) const {
     PathSolution path = getPath(state, "Cable::fixContacts()");
-    CableWorkspace& workspace = m_state.updWorkspace(state);
-    if (path.status != PathStatus::NotConverged) settleContacts(workspace.solver, m_problem, getPose(state), path);
+    if (path.status == PathStatus::NotConverged) return path;
+    PathSolver solver = makeSettlingSolver(m_options);
+    settleContacts(solver, m_problem, getPose(state), path);
     return path;
 }
 
@@ -369,12 +373,10 @@ void CableImpl::handleContactEvent(State& state) const {
         // What the step began from knows how the cable went through rings.
         if (!start.contacts[e].isSwitchedOff) after.contacts[e].passage = start.contacts[e].passage;
     }
-    const Settlement settlement = settleContacts(workspace.solver, m_problem, pose, after);
-    // Another handler may have settled this one's contact already.
-    if (!settlement.isAnew && !hasLeftAnyHole(before) && before.status == PathStatus::Solved) return;
-    if (!settlement.isAnew) after = before;
+    PathSolver solver = makeSettlingSolver(m_options);
+    const int slippedAt = settleContacts(solver, m_problem, pose, after);
     setStart(state, after, pose);
-    report(state, start, before, after, pose, settlement.slippedAt);
+    report(state, start, before, after, pose, slippedAt);
 }
 
 /** @param state   whose velocities are in its workspace */

@@ -17,6 +17,7 @@ struct Outcome {
     Real excess = 0;  ///< by which the path was longer than one found anew, at most [m]
     Real length = 0;  ///< at the end [m]
     bool isTouched = false;
+    std::string why;  ///< the first degraded step is
 };
 
 /** Steps to the end and compares each path with one found anew. */
@@ -40,6 +41,8 @@ Outcome simulate(
         stepper.stepTo(finalTime);
         const State& state = stepper.getState();
         scene.cables.countStep(state);
+        if (cable.calcStatus(state) != PathStatus::Solved && result.why.empty())
+            result.why = "at " + std::to_string(state.getTime()) + " s: " + cable.explainStatus(state);
         State fresh = state;
         cable.releaseContacts(fresh);
         scene.system.realize(fresh, Stage::Position);
@@ -250,7 +253,7 @@ TEST(Slip, AFlungMassDoesNotLeaveItsStringOnASaddle) {
             };
             const Outcome run = testing::simulate(scene, scene.cable, CableElementIndex(1), scene.initial, accuracy, 5,
                                                   SimTK::Infinity, listen);
-            EXPECT_EQ(run.numDegraded, 0) << "of " << run.numSteps;
+            EXPECT_EQ(run.numDegraded, 0) << "of " << run.numSteps << ", first " << run.why;
             EXPECT_EQ(numRattles, 0);
         }
 }

@@ -12,10 +12,17 @@
 namespace tautline {
 namespace {
 
+/** An event is found where a witness has fallen through zero, but solved once more it may be above by rounding. */
+constexpr double kWitnessRounding = 1e-12, kMarginRounding = 1e-8;
+
+bool holds(const PathStability& stability) {
+    return stability.margin > kSlipMargin + kMarginRounding;
+}
+
 /** @return the obstacle with the lowest witness below zero, -1 if there is none */
 int findLowestWitness(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     int worst = -1;
-    double lowest = 0;
+    double lowest = kWitnessRounding;
     visitObstacles(problem, pose, [&](int e) {
         const double witness = calcContactWitness(problem, path, e);
         if (witness < lowest) lowest = witness, worst = e;
@@ -33,6 +40,13 @@ int findFirstTouched(const PathSolution& path) {
 bool isSwallowed(const PathSolution& path) {
     return std::any_of(path.contacts.begin(), path.contacts.end(),
                        [](const ObstacleContact& contact) { return contact.isTouched && contact.isSwitchedOff; });
+}
+
+/** To the solver's tolerance, where that is finer than what the path was solved with. */
+void refine(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    PathSolution refined = path;
+    solver.solveKeepingContacts(problem, pose, refined);
+    if (refined.status != PathStatus::NotConverged) path = refined;
 }
 
 /** @return true if no witness is left below zero */
@@ -75,7 +89,7 @@ bool goOn(PathSolver& solver, const PathProblem& problem, const PathPose& pose, 
 either side. @return the obstacle at which the path was a saddle, if it is now a minimum; else -1 */
 int leaveSaddle(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PathStability stability = calcPathStability(problem, pose, path);
-    if (stability.holds()) return -1;
+    if (holds(stability)) return -1;
     for (const double push : {0.0, 0.3, -0.3, 1.0, -1.0}) {
         PathSolution pushed = path;
         if (push != 0) pushArc(problem, stability.element, push, pushed);
@@ -84,14 +98,14 @@ int leaveSaddle(PathSolver& solver, const PathProblem& problem, const PathPose& 
     return -1;
 }
 
-/** A contact just made may break other conditions of a minimum. @return true if it did and does no longer */
-bool leaveFalseContact(PathSolver& solver, const PathProblem& problem, const PathPose& pose, const PathSolution& before,
+/** A contact just made may break other conditions of a minimum. */
+void leaveFalseContact(PathSolver& solver, const PathProblem& problem, const PathPose& pose, const PathSolution& before,
                        PathSolution& path) {
     const PathVerification verification = verifyPath(problem, pose, path);
-    if (verification.isMinimum() || verification.condition == PathVerification::Condition::Unstable) return false;
+    if (verification.isMinimum() || verification.condition == PathVerification::Condition::Unstable) return;
     const int e = verification.element;
-    if (!path.contacts[e].isTouched || before.contacts[e].isTouched) return false;
-    return goOn(solver, problem, pose, PathSolution(path), path);
+    if (path.contacts[e].isTouched && !before.contacts[e].isTouched)
+        goOn(solver, problem, pose, PathSolution(path), path);
 }
 
 /** Lets the solver find a contact set. @return true if it has come to a path */
@@ -109,26 +123,24 @@ bool hasSlipped(const PathProblem& problem, const PathPose& pose, const PathSolu
                 const PathSolution& after) {
     constexpr double kContinuous = 1e-9;  // of the length
     if (!(std::abs(after.length / before.length - 1) < kContinuous)) return true;
-    return before.status != PathStatus::NotConverged && !calcPathStability(problem, pose, before).holds();
+    return before.status != PathStatus::NotConverged && !holds(calcPathStability(problem, pose, before));
 }
 
 }  // namespace
 
-Settlement settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+int settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PathSolution before = path;
+    if (path.status != PathStatus::NotConverged) refine(solver, problem, pose, path);
     const bool hasWitnesses = path.status != PathStatus::NotConverged || isSwallowed(path);
-    Settlement settlement;
+    int slippedAt = -1;
     if (hasWitnesses && switchContacts(solver, problem, pose, path)) {
-        settlement.isAnew = leaveFalseContact(solver, problem, pose, before, path);
-        settlement.slippedAt = leaveSaddle(solver, problem, pose, path);
+        leaveFalseContact(solver, problem, pose, before, path);
+        slippedAt = leaveSaddle(solver, problem, pose, path);
     } else {
         path = before;
-        settlement.isAnew = solveAnew(solver, problem, pose, path);
-        if (settlement.isAnew) settlement.slippedAt = findFirstTouched(before);
+        if (solveAnew(solver, problem, pose, path)) slippedAt = findFirstTouched(before);
     }
-    settlement.isAnew = settlement.isAnew || settlement.slippedAt >= 0 || !haveSameContacts(before, path);
-    if (!hasSlipped(problem, pose, before, path)) settlement.slippedAt = -1;
-    return settlement;
+    return hasSlipped(problem, pose, before, path) ? slippedAt : -1;
 }
 
 }  // namespace tautline

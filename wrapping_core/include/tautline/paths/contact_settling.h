@@ -3,18 +3,14 @@
 
 namespace tautline {
 
-/** What settleContacts() has done. */
-struct Settlement {
-    bool isAnew = false;  ///< the path is not the one that came in: other contacts, or on other sides
-    int slippedAt = -1;   ///< the obstacle that the string slipped on: no stable path was left near it; -1: none
-};
-
 /** Switches contacts whose witness is below zero, one at a time, solving after each, until none is left; if that comes
 to no end, lets the solver find a contact set from here. A path that is then a saddle is left for the shorter one to
 which a string slips from it. For event handlers: the path that they leave is the one next to where they stopped, not
 the one that a search from elsewhere would find.
+@param solver   of a tolerance so small that what is left of the path error does not matter to the witnesses
 @param path   in: solved with its contacts kept, or, of status NotConverged, the path from which that failed, with what
-is switched off at this pose; out: as in, or solved anew */
-Settlement settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path);
+is switched off at this pose; out: solved anew, or as it was where that fails
+@return the obstacle that the string has slipped on: no stable path was left near it; -1: none */
+int settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 }  // namespace tautline
