@@ -323,7 +323,7 @@ void CableImpl::solveKept(const CablePath& start, CableWorkspace& workspace, Cab
     PathSolution& solution = path.solution;
     solution = start.solution;
     workspace.solver.solveKeepingContacts(m_problem, path.pose, solution);
-    if (isHoldingPath(m_problem, path.pose, solution)) return;
+    if (isHoldingPath(m_problem, path.pose, solution) || hasSwallowedEnd(solution)) return;
     PathSolution followed = start.solution;
     if (isGoodStart(start) && followPath(workspace.solver, m_problem, start.pose, path.pose, followed))
         solution = followed;

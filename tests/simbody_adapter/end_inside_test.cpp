@@ -68,7 +68,7 @@ TEST(EndInside, ComesOutOfEverySurfaceAsIfFoundAnew) {
                                                        std::make_shared<Ellipsoid>(Vec3(0.6, 0.45, 0.5)),
                                                        std::make_shared<Torus>(0.6, 0.2)};
     std::map<const Surface*, int> numSolved;
-    for (int i = 0; i < 32; ++i) {
+    for (int i = 0; i < 20; ++i) {
         const auto& surface = surfaces[i % 4];
         const SimTK::Vec3 origin(1.5 * random.getValue(), 1 + 0.4 * random.getValue(), 0.3 * random.getValue());
         const SimTK::Vec3 offset(0, 0.4 * random.getValue(), 0.2 * random.getValue());
@@ -76,7 +76,7 @@ TEST(EndInside, ComesOutOfEverySurfaceAsIfFoundAnew) {
         PassingEnd scene(surface, origin, offset);
         numSolved[surface.get()] += scene.expectFreshPathOutside(1e-3);
     }
-    for (const auto& surface : surfaces) EXPECT_GE(numSolved[surface.get()], 5) << surface->getDescription();
+    for (const auto& surface : surfaces) EXPECT_GE(numSolved[surface.get()], 3) << surface->getDescription();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "tautline/paths/contact_settling.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "paths/geodesic_variations.h"
@@ -34,12 +33,6 @@ int findFirstTouched(const PathSolution& path) {
     for (std::size_t e = 0; e < path.contacts.size(); ++e)
         if (path.contacts[e].isTouched) return static_cast<int>(e);
     return -1;
-}
-
-/** Whether an end is inside an obstacle that is still touched: no path is over it. */
-bool isSwallowed(const PathSolution& path) {
-    return std::any_of(path.contacts.begin(), path.contacts.end(),
-                       [](const ObstacleContact& contact) { return contact.isTouched && contact.isSwitchedOff; });
 }
 
 /** To the solver's tolerance, where that is finer than what the path was solved with. */
@@ -131,7 +124,7 @@ bool hasSlipped(const PathProblem& problem, const PathPose& pose, const PathSolu
 int settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PathSolution before = path;
     if (path.status != PathStatus::NotConverged) refine(solver, problem, pose, path);
-    const bool hasWitnesses = path.status != PathStatus::NotConverged || isSwallowed(path);
+    const bool hasWitnesses = path.status != PathStatus::NotConverged || hasSwallowedEnd(path);
     int slippedAt = -1;
     if (hasWitnesses && switchContacts(solver, problem, pose, path)) {
         leaveFalseContact(solver, problem, pose, before, path);
