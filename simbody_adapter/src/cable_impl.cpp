@@ -35,14 +35,6 @@ bool isGoodStart(const CablePath& start) {
            start.solution.status != PathStatus::NotMinimum;
 }
 
-/** For settling contacts, to rounding: what is left of the path error turns a long segment off a thin obstacle by more
-than the tolerance of contact. */
-PathSolver makeSettlingSolver(PathSolverOptions options) {
-    constexpr double kSettled = 1e-13;
-    options.pathErrorTolerance = std::min(options.pathErrorTolerance, kSettled);
-    return PathSolver(options);
-}
-
 /** The answer for a pose that is not finite: nothing to draw, nothing that pulls. */
 void makeEmptyPath(int numElements, PathSolution& path) {
     path = PathSolution();
@@ -334,8 +326,7 @@ void CableImpl::solveKept(const CablePath& start, CableWorkspace& workspace, Cab
 PathSolution CableImpl::calcSettledPath(const State& state) const {
     PathSolution path = getPath(state, "Cable::fixContacts()");
     if (path.status == PathStatus::NotConverged) return path;
-    PathSolver solver = makeSettlingSolver(m_options);
-    settleContacts(solver, m_problem, getPose(state), path);
+    settleContacts(m_state.updWorkspace(state).solver, m_problem, getPose(state), path);
     return path;
 }
 
@@ -373,8 +364,7 @@ void CableImpl::handleContactEvent(State& state) const {
         // What the step began from knows how the cable went through rings.
         if (!start.contacts[e].isSwitchedOff) after.contacts[e].passage = start.contacts[e].passage;
     }
-    PathSolver solver = makeSettlingSolver(m_options);
-    const int slippedAt = settleContacts(solver, m_problem, pose, after);
+    const int slippedAt = settleContacts(workspace.solver, m_problem, pose, after);
     setStart(state, after, pose);
     report(state, start, before, after, pose, slippedAt);
 }

@@ -1,5 +1,6 @@
 #include "tautline/paths/contact_settling.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "paths/geodesic_variations.h"
@@ -13,6 +14,9 @@ namespace {
 
 /** An event is found where a witness has fallen through zero, but solved once more it may be above by rounding. */
 constexpr double kWitnessRounding = 1e-12, kMarginRounding = 1e-8;
+
+constexpr int kRefinements = 3;     ///< of Newton's method
+constexpr double kSettled = 1e-14;  ///< path error of a path whose contacts are judged
 
 bool holds(const PathStability& stability) {
     return stability.margin > kSlipMargin + kMarginRounding;
@@ -35,11 +39,17 @@ int findFirstTouched(const PathSolution& path) {
     return -1;
 }
 
-/** To the solver's tolerance, where that is finer than what the path was solved with. */
-void refine(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+/** A path's contacts are judged to rounding, as far as its geodesics are shot so well: what is left of the path error
+turns a long segment off a thin obstacle by more than the tolerance of contact. */
+void refine(const PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    PathSolverOptions options = solver.getOptions();
+    options.pathErrorTolerance = std::min(options.pathErrorTolerance, kSettled);
+    options.maxIterations = std::min(options.maxIterations, kRefinements);
     PathSolution refined = path;
-    solver.solveKeepingContacts(problem, pose, refined);
-    if (refined.status != PathStatus::NotConverged) path = refined;
+    PathSolver(options).solveKeepingContacts(problem, pose, refined);
+    if (!(refined.pathError < path.pathError)) return;
+    refined.status = path.status;
+    path = refined;
 }
 
 /** @return true if no witness is left below zero */
@@ -51,6 +61,7 @@ bool switchContacts(PathSolver& solver, const PathProblem& problem, const PathPo
         switchContact(problem, pose, worst, path);
         solver.solveKeepingContacts(problem, pose, path);
         if (path.status == PathStatus::NotConverged) return false;
+        refine(solver, problem, pose, path);
     }
     return false;
 }
@@ -133,6 +144,7 @@ int settleContacts(PathSolver& solver, const PathProblem& problem, const PathPos
         path = before;
         if (solveAnew(solver, problem, pose, path)) slippedAt = findFirstTouched(before);
     }
+    if (path.status != PathStatus::NotConverged) refine(solver, problem, pose, path);
     return hasSlipped(problem, pose, before, path) ? slippedAt : -1;
 }
 

@@ -7,7 +7,6 @@ namespace tautline {
 to no end, lets the solver find a contact set from here. A path that is then a saddle is left for the shorter one to
 which a string slips from it. For event handlers: the path that they leave is the one next to where they stopped, not
 the one that a search from elsewhere would find.
-@param solver   of a tolerance so small that what is left of the path error does not matter to the witnesses
 @param path   in: solved with its contacts kept, or, of status NotConverged, the path from which that failed, with what
 is switched off at this pose; out: solved anew, or as it was where that fails
 @return the obstacle that the string has slipped on: no stable path was left near it; -1: none */
