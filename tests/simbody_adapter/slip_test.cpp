@@ -235,10 +235,12 @@ struct FlungMass : BareScene {
     State initial;
 };
 
-// 2026-11-25: at accuracies from 1e-1 to 1e-3 a quarter of all steps stood on saddles or did not converge.
+// 2026-11-25: at accuracies from 1e-1 to 1e-3 a quarter of all steps stood on saddles or did not converge. Beside them,
+// an arc of scene 5 at 1e-5 and one of scene 10 at 1e-3 went on below zero length: an event had been found where
+// solving once more gave the witness the other sign, by rounding.
 TEST(Slip, AFlungMassDoesNotLeaveItsStringOnASaddle) {
-    for (const Real accuracy : {1e-1, 1e-3})
-        for (int number = 1; number <= 8; ++number) {
+    for (const Real accuracy : {1e-1, 1e-3, 1e-5})
+        for (int number = 1; number <= 12; ++number) {
             SCOPED_TRACE(std::to_string(accuracy) + ", scene " + std::to_string(number));
             FlungMass scene(number);
             std::map<int, Real> lastTime;
