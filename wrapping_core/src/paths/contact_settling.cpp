@@ -22,7 +22,7 @@ bool holds(const PathStability& stability) {
     return stability.margin > kSlipMargin + kMarginRounding;
 }
 
-/** @return the obstacle with the lowest witness below zero, -1 if there is none */
+/** @return the obstacle with the lowest witness below zero, to rounding; -1 if there is none */
 int findLowestWitness(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     int worst = -1;
     double lowest = kWitnessRounding;
