@@ -10,24 +10,20 @@ namespace tautline {
 void RunCommand::declare(CLI::App& app) {
     app.option_defaults()->take_last();  // so that what a script gives can be overridden
     app.add_option("MODEL", modelFile, "model file (.osim)")->required();
-    app.add_option("--duration", simulation.duration, "time to simulate [s]")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    app.add_option("--duration", simulation.duration, "time to simulate [s]")->capture_default_str();
     app.add_option("--out", outFolder, "folder of the results, made if missing")->capture_default_str();
     app.add_option("--excitation", excitations.assignments,
                    "constant excitation of a muscle, NAME=VALUE in [0, 1]; repeatable; 0.05 for all others");
     app.add_option("--excitations", excitations.file, "storage file (.sto) with a column of excitations per muscle");
-    app.add_option("--interval", simulation.interval, "time between rows of the results [s]")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    app.add_option("--accuracy", simulation.accuracy, "accuracy of the integrator")
-        ->check(CLI::Range(1e-14, 0.1))
+    app.add_option("--interval", simulation.interval, "time between rows of the results [s]")->capture_default_str();
+    app.add_option("--accuracy", simulation.accuracy, "accuracy of the integrator, in [1e-14, 0.1]")
         ->capture_default_str();
     app.add_flag("--allow-degraded", allowsDegraded, "exit with 0 even if some steps had no verified shortest path");
     app.add_flag("--plot", drawsCurves, "draw the results with gnuplot: a picture (.svg) of each path's curves");
 }
 
 int RunCommand::run(std::ostream& out, bool isTerminal) const {
+    simulation.validate();
     const models::ModelDescription description = models::readOsimFile(modelFile);
     models::ModelSystem model(description);
     std::vector<std::string> names;

@@ -69,6 +69,11 @@ void printRunTable(const models::ModelSystem& model, const SimulationResult& res
     out << result.acceptedSteps << " steps, " << format(result.seconds, 3) << " s, of which "
         << format(100 * result.wrappingSeconds / std::max(result.seconds, 1e-9), 1) << " % in wrapping\n";
     for (std::size_t i = 0; i < paths.size(); ++i)
+        if (const PathSummary& summary = result.summaries[i]; summary.slips > 0)
+            out << "note: " << paths[i].name << ": slipped " << summary.slips << " times, shorter by "
+                << format(summary.slippedLength, 1, true)
+                << " m in all; what its force had stored in that length is lost\n";
+    for (std::size_t i = 0; i < paths.size(); ++i)
         if (const long numDegraded = result.summaries[i].statistics.numDegradedSteps; numDegraded > 0)
             out << "warning: " << paths[i].name << ": " << numDegraded << " steps without a verified minimum; first "
                 << result.summaries[i].firstDegradation << "\n";

@@ -51,6 +51,10 @@ public:
         using Kind = ContactEvent::Kind;
         if (event.kind == Kind::Made) ++m_result.summaries[path].contactsMade;
         if (event.kind == Kind::Lost) ++m_result.summaries[path].contactsLost;
+        if (event.kind == Kind::Slipped) {
+            ++m_result.summaries[path].slips;
+            m_result.summaries[path].slippedLength += event.lengthBefore - event.lengthAfter;
+        }
         m_result.events += toText(event.time) + "," + m_paths[path].path + "," +
                            m_paths[path].cable.getElementName(event.obstacle) + "," + describeKind(event.kind) + "\n";
     }
@@ -66,6 +70,8 @@ private:
                 return "split";
             case ContactEvent::Kind::LeftHole:
                 return "left_hole";
+            case ContactEvent::Kind::Slipped:
+                return "slipped";
         }
         return "";
     }
@@ -228,7 +234,7 @@ void integrate(ModelSystem& model, const State& initialState, const SimulationOp
     SimTK::TimeStepper stepper(model.getSystem(), integrator);
     stepper.setReportAllSignificantStates(true);
     stepper.initialize(initialState);
-    const int numRows = std::max(1, static_cast<int>(std::ceil(options.duration / options.interval - 1e-9)));
+    const int numRows = options.calcNumRows();
     recorder.recordRow(stepper.getState());
     for (int row = 1; row <= numRows; ++row) {
         // Times as multiples, so that they do not drift.
@@ -248,6 +254,7 @@ void integrate(ModelSystem& model, const State& initialState, const SimulationOp
 
 SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excitation>& excitations,
                           const SimulationOptions& options, const std::function<void(double)>& reportProgress) {
+    options.validate();
     SimulationResult result;
     const std::vector<ModelSystem::PathView> paths = model.getPaths();
     for (const ModelSystem::PathView& path : paths) path.cable.resetStatistics();

@@ -14,7 +14,8 @@ namespace tautline {
 /** What the path of a muscle or spring did over a simulation. */
 struct PathSummary {
     CableStatistics statistics;
-    int contactsMade = 0, contactsLost = 0;
+    int contactsMade = 0, contactsLost = 0, slips = 0;
+    double slippedLength = 0;      ///< by which the slips have shortened it [m]
     std::string firstDegradation;  ///< status, reason and time of the first degraded step
 };
 
@@ -33,7 +34,8 @@ struct SimulationResult {
 /** Simulates a model forward under gravity and its muscles' excitations from its default pose. Paths for which
 the model gives geodesics to start from begin with what these lead to, others with what the solver finds.
 @param reportProgress   called with the share done, 0 to 1
-@throws std::runtime_error if a start that the model gives leads to no path
+@throws InvalidInput as SimulationOptions::validate(), std::runtime_error if a start that the model gives leads to no
+path
 @return the recorded results; the same for the same input, bit for bit, but for the times */
 SimulationResult simulate(models::ModelSystem& model, const std::map<std::string, Excitation>& excitations,
                           const SimulationOptions& options, const std::function<void(double)>& reportProgress);

@@ -198,13 +198,14 @@ bool Cable::isDisabled(const State& state) const {
 }
 
 void Cable::fixContacts(State& state) const {
-    get().keepContacts(state, get().calcSettledPath(state));
+    const PathSolution path = get().calcSettledPath(state);
+    get().keepContacts(state, path, PathPose(get().getPose(state)));
 }
 
 void Cable::continueFrom(State& state, const PathSolution& path) const {
     require(static_cast<int>(path.contacts.size()) == getNumElements(), "cable '", getName(), "': a path with ",
             path.contacts.size(), " contacts for ", getNumElements(), " elements");
-    get().keepContacts(state, path);
+    get().keepContacts(state, path, PathPose());
 }
 
 void Cable::releaseContacts(State& state) const {
@@ -335,7 +336,7 @@ void Cable::calcUnitBodyForces(const State& state, SimTK::Vector_<SpatialVec>& u
 
 SpatialVec Cable::calcUnitElementForce(const State& state, CableElementIndex element) const {
     get().getElement(element);
-    return toSpatialVec(get().calcElementForces(state, "Cable::calcUnitElementForce()")[element]);
+    return toSpatialVec(get().getElementForces(state, "Cable::calcUnitElementForce()")[element]);
 }
 
 void Cable::calcUnitMobilityForces(const State& state, SimTK::Vector& unitForces) const {

@@ -42,6 +42,11 @@ public:
     /** The path is solved for the poses of the State, which are those given. */
     void calcPositionErrors(const State& state, const Array_<SimTK::Transform, ConstrainedBodyIndex>&,
                             const Array_<Real, ConstrainedQIndex>&, Array_<Real>& perr) const override {
+        SimTK_ERRCHK1_ALWAYS(
+            !m_cable.isDisabled(state), "CableConstraint",
+            "the constraint on cable '%s' is enabled, but the cable is disabled in this State: disable "
+            "the constraint too",
+            m_cable.getName().c_str());
         dynamic_cast<const CableSubsystemImpl&>(m_cable.getSubsystem().getSubsystemGuts())
             .realizePositionOfPlacedBodies(state);
         perr[0] = m_cable.getLength(state) - m_length;
@@ -108,6 +113,8 @@ Real CableConstraint::getLength() const {
 }
 
 Real CableConstraint::getTension(const State& state) const {
+    SimTK_STAGECHECK_GE_ALWAYS(state.getSystemStage(), SimTK::Stage(SimTK::Stage::Topology),
+                               "CableConstraint::getTension()");
     return isDisabled(state) ? 0 : getMultipliersAsVector(state)[0];
 }
 

@@ -12,6 +12,10 @@ CableForceLaw::CableForceLaw(const Cable& cable) : m_cable(cable) {
     require(!cable.isEmptyHandle(), "cable force: the cable is an empty handle");
 }
 
+void CableForceLaw::ensureTopology(const State& state, const char* method) {
+    SimTK_STAGECHECK_GE_ALWAYS(state.getSystemStage(), SimTK::Stage(SimTK::Stage::Topology), method);
+}
+
 CableForce::CableForce(SimTK::GeneralForceSubsystem& forces, std::unique_ptr<CableForceLaw> law)
     : Custom(forces, new CableForceImpl(forces, std::move(law))) {}
 
@@ -24,6 +28,7 @@ CableForceLaw& CableForce::updLaw() {
 }
 
 Real CableForce::getTension(const State& state) const {
+    CableForceLaw::ensureTopology(state, "CableForce::getTension()");
     SimTK_STAGECHECK_GE_ALWAYS(getCable().getMatterSubsystem().getStage(state), SimTK::Stage(SimTK::Stage::Velocity),
                                "CableForce::getTension()");
     if (isDisabled(state)) return 0;

@@ -95,6 +95,7 @@ public:
         check(tension);
         require(!m_calcTension, "prescribed tension on cable '", getCable().getName(),
                 "': is given by a function and cannot be set");
+        ensureTopology(state, "PrescribedTensionForce::setTension()");
         SimTK::Value<Real>::updDowncast(m_forces->updDiscreteVariable(state, m_tension)) = tension;
     }
 
@@ -149,6 +150,7 @@ Real ElasticStringForce::getStretch(const State& state) const {
 }
 
 Real ElasticStringForce::getPowerDissipation(const State& state) const {
+    CableForceLaw::ensureTopology(state, "ElasticStringForce::getPowerDissipation()");
     if (isDisabled(state) || getCable().isDisabled(state)) return 0;
     const Real rate = getCable().getLengthRate(state);
     // What the tension does beyond the elastic part, so that the cut at zero is accounted for.

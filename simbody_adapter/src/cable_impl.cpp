@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "cable_subsystem_impl.h"
 #include "contact_event_handler.h"
@@ -10,7 +12,9 @@
 #include "tautline/paths/contact_settling.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_explanation.h"
+#include "tautline/paths/path_following.h"
 #include "tautline/paths/path_kinematics.h"
+#include "tautline/paths/path_stability.h"
 #include "tautline/paths/single_contact.h"
 #include "tautline/simbody/conversions.h"
 
@@ -25,9 +29,10 @@ namespace {
 
 constexpr Real kBetweenEvents = -1e-6;  ///< arcs just below zero, in sizes, which the event finder watches
 
-bool hasLeftAnyHole(const PathSolution& path) {
-    return std::any_of(path.contacts.begin(), path.contacts.end(),
-                       [](const ObstacleContact& contact) { return contact.hasLeftHole; });
+/** Whether a path may be followed from there. */
+bool isGoodStart(const CablePath& start) {
+    return !start.pose.X_GE.empty() && start.solution.status != PathStatus::NotConverged &&
+           start.solution.status != PathStatus::NotMinimum;
 }
 
 /** The answer for a pose that is not finite: nothing to draw, nothing that pulls. */
@@ -56,6 +61,8 @@ CableElementIndex CableImpl::insertElement(CableElement element) {
     const bool isObstacle = element.surface != nullptr, isConditional = element.isActive != nullptr;
     m_elements.insert(m_elements.end() - 1, std::move(element));
     m_cables.invalidateSubsystemTopologyCache();
+    if (isObstacle && !std::exchange(m_isStabilityWatched, true))
+        m_cables.updSystem().addEventHandler(new StabilityEventHandler(*this));
     if (isObstacle) m_cables.updSystem().addEventHandler(new ContactEventHandler(*this, index));
     if (isObstacle && !m_elements[index].surface->isConvex())
         m_cables.updSystem().addEventHandler(new SplitEventHandler(*this, index));
@@ -132,9 +139,10 @@ void CableImpl::realizeTopology(State& state) {
 void CableImpl::realizePosition(const State& state) const {
     const CableMode& mode = m_state.getMode(state);
     if (mode.isDisabled) return;
-    CableWorkspace& workspace = m_state.updWorkspace(state);
-    calcPose(state, workspace.pose);
-    solve(m_state.getStart(state), mode.keepsContacts, workspace, m_state.updPath(state));
+    CablePath& path = m_state.updPath(state);
+    calcPose(state, path.pose);
+    solve(m_state.getStart(state), mode.keepsContacts, m_state.updWorkspace(state), path);
+    calcUnitForces(path.solution, path.pose, path.forces);
     m_state.markPathRealized(state);
 }
 
@@ -149,7 +157,7 @@ const PathSolution& CableImpl::getPath(const State& state, const char* method) c
     SimTK_ERRCHK1_ALWAYS(!isDisabled(state), method, "cable '%s' is disabled in this State", m_name.c_str());
     // A study's swap leaves the path unrealized at a stage beyond Position.
     if (!m_state.isPathRealized(state)) realizePosition(state);
-    return m_state.getPath(state);
+    return m_state.getPath(state).solution;
 }
 
 Real CableImpl::getLengthRate(const State& state) const {
@@ -158,7 +166,7 @@ Real CableImpl::getLengthRate(const State& state) const {
     if (!m_state.isRateRealized(state)) {
         CableWorkspace& workspace = m_state.updWorkspace(state);
         calcVelocities(state, workspace.velocities);
-        m_state.setRate(state, calcLengthRate(path, workspace.pose, workspace.velocities));
+        m_state.setRate(state, calcLengthRate(path, getPose(state), workspace.velocities));
     }
     return m_state.getRate(state);
 }
@@ -167,22 +175,22 @@ Real CableImpl::getLengthAccelerationBias(const State& state) const {
     const char* const method = "Cable::getLengthAccelerationBias()";
     m_cables.ensureStage(state, Stage::Velocity, method);
     SimTK_ERRCHK1_ALWAYS(!hasMovingPoints(), method, "cable '%s' has moving or conditional points", m_name.c_str());
-    const PathSolution& path = getPath(state, method);
-    if (!m_state.isBiasRealized(state)) m_state.setBias(state, calcLengthAccelerationBias(state, path));
+    getPath(state, method);
+    if (!m_state.isBiasRealized(state))
+        m_state.setBias(state, calcLengthAccelerationBias(state, m_state.getPath(state)));
     return m_state.getBias(state);
 }
 
 /** Of dL/dt = -sum (F . v + M . w) over the elements' origins E: the rates of the unit forces, and the acceleration of
 E that turning alone gives it. On the verge of instability, where the forces' rates are without bound, that alone. */
-Real CableImpl::calcLengthAccelerationBias(const State& state, const PathSolution& path) const {
+Real CableImpl::calcLengthAccelerationBias(const State& state, const CablePath& path) const {
     CableWorkspace& workspace = m_state.updWorkspace(state);
     calcVelocities(state, workspace.velocities);
-    workspace.sensitivity.setPath(m_problem, workspace.pose, path);
+    workspace.sensitivity.setPath(m_problem, path.pose, path.solution);
     workspace.sensitivity.calcVariation(workspace.velocities, workspace.variation);
-    calcUnitForces(path, workspace.pose, workspace.forces);
     Real bias = 0;
     for (std::size_t e = 0; e < m_elements.size(); ++e) {
-        const SpatialForce &F = workspace.forces[e], &FRate = workspace.variation.forceRate[e];
+        const SpatialForce &F = path.forces[e], &FRate = workspace.variation.forceRate[e];
         const SpatialVelocity& V = workspace.velocities[e];
         const SimTK::Vec3 p_BE_G = getBody(m_elements[e]).getBodyRotation(state) * m_elements[e].X_BE.p();
         const Vec3 centripetal = V.w.cross(V.w.cross(toEigen(p_BE_G)));
@@ -203,6 +211,24 @@ Real CableImpl::calcSplitWitness(const State& state, CableElementIndex obstacle)
     return calcSingleContactWitness(m_problem, getPose(state), path, obstacle);
 }
 
+/** Where a path that is a saddle could not be left, it is tried again whenever its instability has grown tenfold. */
+Real CableImpl::calcStabilityWitness(const State& state) const {
+    constexpr Real kTiny = std::numeric_limits<Real>::min(), kGrowth = 10;
+    const PathSolution& path = getPath(state, "StabilityEventHandler::getValue()");
+    if (!m_state.getMode(state).keepsContacts) return 1;
+    if (path.status == PathStatus::NotConverged) return -1;
+    const auto calcMargin = [&](const CablePath& at) {
+        return calcPathStability(m_problem, at.pose, at.solution).margin;
+    };
+    const CablePath& start = m_state.getStart(state);
+    Real margin = calcMargin(m_state.getPath(state));
+    if (start.solution.status == PathStatus::NotMinimum && !start.pose.X_GE.empty())
+        margin -= kGrowth * std::min<Real>(calcMargin(start), kSlipMargin);
+    else
+        margin -= kSlipMargin;
+    return margin == 0 ? -kTiny : margin;
+}
+
 void CableImpl::reportSplit(const State& state, CableElementIndex obstacle) const {
     if (isDisabled(state) || !m_listener) return;
     m_cables.getSystem().realize(state, Stage::Velocity);
@@ -210,16 +236,14 @@ void CableImpl::reportSplit(const State& state, CableElementIndex obstacle) cons
     m_listener({state.getTime(), m_index, obstacle, ContactEvent::Kind::Split, length, length, rate, rate});
 }
 
-const std::vector<SpatialForce>& CableImpl::calcElementForces(const State& state, const char* method) const {
-    const PathSolution& path = getPath(state, method);
-    CableWorkspace& workspace = m_state.updWorkspace(state);
-    calcUnitForces(path, workspace.pose, workspace.forces);
-    return workspace.forces;
+const std::vector<SpatialForce>& CableImpl::getElementForces(const State& state, const char* method) const {
+    getPath(state, method);
+    return m_state.getPath(state).forces;
 }
 
 void CableImpl::addBodyForces(const State& state, Real tension, SimTK::Vector_<SpatialVec>& bodyForces,
                               const char* method) const {
-    const std::vector<SpatialForce>& F_GE = calcElementForces(state, method);
+    const std::vector<SpatialForce>& F_GE = getElementForces(state, method);
     const PathPose& pose = getPose(state);
     for (int e = 0; e < getNumElements(); ++e) {
         const CableElement& element = m_elements[e];
@@ -233,7 +257,7 @@ void CableImpl::addMobilityForces(const State& state, Real tension, SimTK::Vecto
                                   const char* method) const {
     const auto isMoving = [](const CableElement& element) { return element.moving != nullptr; };
     if (std::none_of(m_elements.begin(), m_elements.end(), isMoving)) return;
-    const std::vector<SpatialForce>& F_GE = calcElementForces(state, method);
+    const std::vector<SpatialForce>& F_GE = getElementForces(state, method);
     for (int e = 0; e < getNumElements(); ++e) {
         const CableElement& element = m_elements[e];
         if (!element.moving) continue;
@@ -266,16 +290,16 @@ void CableImpl::calcVelocities(const State& state, std::vector<SpatialVelocity>&
     }
 }
 
-void CableImpl::solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace,
-                      PathSolution& path) const {
-    if (!workspace.pose.isFinite()) return makeEmptyPath(getNumElements(), path);
+void CableImpl::solve(const CablePath& start, bool keepsContacts, CableWorkspace& workspace, CablePath& found) const {
+    PathSolution& path = found.solution;
+    if (!found.pose.isFinite()) return makeEmptyPath(getNumElements(), path);
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     if (keepsContacts) {
-        solveKept(start, workspace, path);
+        solveKept(start, workspace, found);
     } else {
         path.contacts.clear();
-        workspace.solver.solve(m_problem, workspace.pose, path);
+        workspace.solver.solve(m_problem, found.pose, path);
     }
     const std::chrono::nanoseconds elapsed = Clock::now() - begin;
     m_counters.nanoseconds += elapsed.count();
@@ -286,30 +310,36 @@ void CableImpl::solve(const PathSolution& start, bool keepsContacts, CableWorksp
     m_counters.shots += path.shots;
 }
 
-/** Where the start does not lead on, a search along its course may, but it counts only if it comes to the same
-contacts and through the same holes. */
-void CableImpl::solveKept(const PathSolution& start, CableWorkspace& workspace, PathSolution& path) const {
-    path = start;
-    workspace.solver.solveKeepingContacts(m_problem, workspace.pose, path);
-    if (path.status != PathStatus::NotConverged || !m_options.allowsColdStart) return;
-    PathSolution fresh = start;
-    workspace.solver.solve(m_problem, workspace.pose, fresh);
-    if (fresh.status != PathStatus::NotConverged && haveSameContacts(fresh, path) && !hasLeftAnyHole(fresh))
-        path = fresh;
+/** Where Newton's method comes to no path in one step, or to another one, a saddle, the path is followed there. */
+void CableImpl::solveKept(const CablePath& start, CableWorkspace& workspace, CablePath& path) const {
+    PathSolution& solution = path.solution;
+    solution = start.solution;
+    workspace.solver.solveKeepingContacts(m_problem, path.pose, solution);
+    if (isHoldingPath(m_problem, path.pose, solution) || hasSwallowedEnd(solution)) return;
+    PathSolution followed = start.solution;
+    if (isGoodStart(start) && followPath(workspace.solver, m_problem, start.pose, path.pose, followed))
+        solution = followed;
+    else if (solution.status == PathStatus::Solved)
+        solution.status = PathStatus::NotMinimum;
 }
 
 PathSolution CableImpl::calcSettledPath(const State& state) const {
     PathSolution path = getPath(state, "Cable::fixContacts()");
-    CableWorkspace& workspace = m_state.updWorkspace(state);
-    if (path.status != PathStatus::NotConverged) settleContacts(workspace.solver, m_problem, workspace.pose, path);
+    if (path.status == PathStatus::NotConverged) return path;
+    settleContacts(m_state.updWorkspace(state).solver, m_problem, getPose(state), path);
     return path;
 }
 
-void CableImpl::keepContacts(State& state, const PathSolution& path) const {
+void CableImpl::keepContacts(State& state, const PathSolution& path, const PathPose& pose) const {
     CableMode mode = m_state.getMode(state);
     mode.keepsContacts = true;
     m_state.setMode(state, mode);
-    m_state.setStart(state, path);
+    setStart(state, path, pose);
+}
+
+void CableImpl::setStart(State& state, const PathSolution& path, const PathPose& pose) const {
+    CablePath& start = m_state.updStart(state);
+    start.solution = path, start.pose = pose;
 }
 
 void CableImpl::releaseContacts(State& state) const {
@@ -323,31 +353,37 @@ void CableImpl::handleContactEvent(State& state) const {
     if (mode.isDisabled || !mode.keepsContacts) return;
     m_cables.getSystem().realize(state, Stage::Velocity);
     const PathSolution before = getPath(state, "ContactEventHandler::handleEvent()");
-    PathSolution after = before;
+    const PathPose pose = getPose(state);
     CableWorkspace& workspace = m_state.updWorkspace(state);
-    // What the step began from knows how the cable went through rings.
-    const PathSolution start = m_state.getStart(state);
-    for (int e = 0; e < getNumElements(); ++e) after.contacts[e].passage = start.contacts[e].passage;
-    const bool hasChanged = settleContacts(workspace.solver, m_problem, workspace.pose, after);
-    // Another obstacle's handler may have settled this one's contact already.
-    if (!hasChanged && !hasLeftAnyHole(before)) return;
-    if (!hasChanged) after = before;
     calcVelocities(state, workspace.velocities);
-    m_state.setStart(state, after);
-    report(state, start, before, after);
+    const PathSolution start = m_state.getStart(state).solution;
+    PathSolution after = before;
+    if (before.status == PathStatus::NotConverged) after.contacts = start.contacts;
+    for (int e = 0; e < getNumElements(); ++e) {
+        after.contacts[e].isSwitchedOff = before.contacts[e].isSwitchedOff;
+        // What the step began from knows how the cable went through rings.
+        if (!start.contacts[e].isSwitchedOff) after.contacts[e].passage = start.contacts[e].passage;
+    }
+    const int slippedAt = settleContacts(workspace.solver, m_problem, pose, after);
+    setStart(state, after, pose);
+    report(state, start, before, after, pose, slippedAt);
 }
 
-/** @param state   whose pose and velocities are in its workspace */
+/** @param state   whose velocities are in its workspace */
 void CableImpl::report(const State& state, const PathSolution& start, const PathSolution& before,
-                       const PathSolution& after) const {
+                       const PathSolution& after, const PathPose& pose, int slippedAt) const {
     const CableWorkspace& workspace = m_state.updWorkspace(state);
-    const Real rateBefore = calcLengthRate(before, workspace.pose, workspace.velocities);
-    const Real rateAfter = calcLengthRate(after, workspace.pose, workspace.velocities);
+    const Real rateBefore = calcLengthRate(before, pose, workspace.velocities);
+    const Real rateAfter = calcLengthRate(after, pose, workspace.velocities);
     using Kind = ContactEvent::Kind;
     const auto tell = [&](CableElementIndex e, Kind kind) {
         if (m_listener)
             m_listener({state.getTime(), m_index, e, kind, before.length, after.length, rateBefore, rateAfter});
     };
+    if (slippedAt >= 0) {
+        ++m_counters.slips;
+        tell(CableElementIndex(slippedAt), Kind::Slipped);
+    }
     for (CableElementIndex e(0); e < getNumElements(); ++e) {
         if (!m_elements[e].surface) continue;
         if (after.contacts[e].hasLeftHole && !start.contacts[e].hasLeftHole) {
@@ -373,6 +409,9 @@ PathStatus CableImpl::calcStatus(const State& state) const {
             return PathStatus::Solved;
         case Condition::OutsideDomain:
             return PathStatus::LeftDomain;
+        case Condition::Unstable:
+            if (calcPathStability(m_problem, getPose(state), path).holds()) return PathStatus::Solved;
+            [[fallthrough]];
         default:
             return PathStatus::NotMinimum;
     }
@@ -404,6 +443,7 @@ CableStatistics CableImpl::getStatistics() const {
     result.numSteps = m_counters.steps;
     result.numDegradedSteps = m_counters.degradedSteps;
     result.largestPathError = m_counters.largestPathError;
+    result.numSlips = m_counters.slips;
     result.numHolesLeft = m_counters.holesLeft;
     result.seconds = 1e-9 * static_cast<double>(m_counters.nanoseconds);
     return result;
@@ -412,7 +452,7 @@ CableStatistics CableImpl::getStatistics() const {
 void CableImpl::resetStatistics() const {
     for (std::atomic<long>* counter :
          {&m_counters.solves, &m_counters.coldSolves, &m_counters.failures, &m_counters.iterations, &m_counters.shots,
-          &m_counters.events, &m_counters.holesLeft, &m_counters.nanoseconds, &m_counters.steps,
+          &m_counters.events, &m_counters.slips, &m_counters.holesLeft, &m_counters.nanoseconds, &m_counters.steps,
           &m_counters.degradedSteps})
         *counter = 0;
     m_counters.largestPathError = 0;

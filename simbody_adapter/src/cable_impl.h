@@ -54,15 +54,17 @@ public:
 
     /** @param method   of the API, for the message if the state is not realized to Position */
     const PathSolution& getPath(const SimTK::State& state, const char* method) const;
-    const PathPose& getPose(const SimTK::State& state) const { return m_state.updWorkspace(state).pose; }
+    /** Of getPath(), which must have been asked for before. */
+    const PathPose& getPose(const SimTK::State& state) const { return m_state.getPath(state).pose; }
     const PathProblem& getProblem() const { return m_problem; }
     SimTK::Real getLengthRate(const SimTK::State& state) const;
     SimTK::Real getLengthAccelerationBias(const SimTK::State& state) const;
     SimTK::Real calcWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     SimTK::Real calcSplitWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     void reportSplit(const SimTK::State& state, CableElementIndex obstacle) const;
-    /** About element origins, in ground; valid until the next call with this state. */
-    const std::vector<SpatialForce>& calcElementForces(const SimTK::State& state, const char* method) const;
+    SimTK::Real calcStabilityWitness(const SimTK::State& state) const;
+    /** About element origins, in ground. */
+    const std::vector<SpatialForce>& getElementForces(const SimTK::State& state, const char* method) const;
     void addBodyForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,
                        const char* method) const;
 
@@ -71,7 +73,8 @@ public:
 
     /** The path of this state with all contacts settled, as a study starts from it. */
     PathSolution calcSettledPath(const SimTK::State& state) const;
-    void keepContacts(SimTK::State& state, const PathSolution& path) const;
+    /** @param pose   for which the path was solved; empty: not known */
+    void keepContacts(SimTK::State& state, const PathSolution& path, const PathPose& pose) const;
     void releaseContacts(SimTK::State& state) const;
     void handleContactEvent(SimTK::State& state) const;
 
@@ -86,12 +89,13 @@ public:
 private:
     void checkHint(const CableElement& obstacle) const;
     void calcPose(const SimTK::State& state, PathPose& pose) const;
-    SimTK::Real calcLengthAccelerationBias(const SimTK::State& state, const PathSolution& path) const;
+    SimTK::Real calcLengthAccelerationBias(const SimTK::State& state, const CablePath& path) const;
     void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
-    void solve(const PathSolution& start, bool keepsContacts, CableWorkspace& workspace, PathSolution& path) const;
-    void solveKept(const PathSolution& start, CableWorkspace& workspace, PathSolution& path) const;
+    void solve(const CablePath& start, bool keepsContacts, CableWorkspace& workspace, CablePath& path) const;
+    void solveKept(const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
+    void setStart(SimTK::State& state, const PathSolution& path, const PathPose& pose) const;
     void report(const SimTK::State& state, const PathSolution& start, const PathSolution& before,
-                const PathSolution& after) const;
+                const PathSolution& after, const PathPose& pose, int slippedAt) const;
 
     CableSubsystemImpl& m_cables;
     CableIndex m_index;
@@ -99,6 +103,7 @@ private:
     std::vector<CableElement> m_elements;
     PathSolverOptions m_options;
     CableMode m_defaultMode;
+    bool m_isStabilityWatched = false;  ///< one event handler for all obstacles
     std::function<void(const ContactEvent&)> m_listener;
 
     PathProblem m_problem;  ///< built at Topology
@@ -106,8 +111,8 @@ private:
 
     /** Counted by all threads that realize States. */
     struct Counters {
-        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, holesLeft{0},
-            nanoseconds{0}, steps{0}, degradedSteps{0};
+        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, slips{0},
+            holesLeft{0}, nanoseconds{0}, steps{0}, degradedSteps{0};
         std::atomic<double> largestPathError{0};
     };
     mutable Counters m_counters;

@@ -10,7 +10,7 @@ void CablePathState::allocate(const SimTK::Subsystem::Guts& cables, State& state
                               const PathSolverOptions& options) {
     m_cables = &cables;
     m_mode = cables.allocateDiscreteVariable(state, Stage::Position, new Value<CableMode>(defaultMode));
-    m_path = cables.allocateAutoUpdateDiscreteVariable(state, Stage::Position, new Value<PathSolution>(PathSolution()),
+    m_path = cables.allocateAutoUpdateDiscreteVariable(state, Stage::Position, new Value<CablePath>(CablePath()),
                                                        Stage::Position);
     m_rate = cables.allocateLazyCacheEntry(state, Stage::Velocity, new Value<SimTK::Real>(SimTK::NaN));
     m_bias = cables.allocateLazyCacheEntry(state, Stage::Velocity, new Value<SimTK::Real>(SimTK::NaN));
@@ -19,6 +19,8 @@ void CablePathState::allocate(const SimTK::Subsystem::Guts& cables, State& state
 }
 
 const CableMode& CablePathState::getMode(const State& state) const {
+    // All that Cable does with a State begins here.
+    SimTK_STAGECHECK_GE_ALWAYS(state.getSystemStage(), Stage(Stage::Topology), "Cable");
     return Value<CableMode>::downcast(m_cables->getDiscreteVariable(state, m_mode));
 }
 
@@ -26,24 +28,24 @@ void CablePathState::setMode(State& state, const CableMode& mode) const {
     Value<CableMode>::updDowncast(m_cables->updDiscreteVariable(state, m_mode)) = mode;
 }
 
-const PathSolution& CablePathState::getStart(const State& state) const {
-    return Value<PathSolution>::downcast(m_cables->getDiscreteVariable(state, m_path));
+const CablePath& CablePathState::getStart(const State& state) const {
+    return Value<CablePath>::downcast(m_cables->getDiscreteVariable(state, m_path));
 }
 
-void CablePathState::setStart(State& state, const PathSolution& start) const {
-    Value<PathSolution>::updDowncast(m_cables->updDiscreteVariable(state, m_path)) = start;
+CablePath& CablePathState::updStart(State& state) const {
+    return Value<CablePath>::updDowncast(m_cables->updDiscreteVariable(state, m_path));
 }
 
 bool CablePathState::isPathRealized(const State& state) const {
     return m_cables->isDiscreteVarUpdateValueRealized(state, m_path);
 }
 
-const PathSolution& CablePathState::getPath(const State& state) const {
-    return Value<PathSolution>::downcast(m_cables->getDiscreteVarUpdateValue(state, m_path));
+const CablePath& CablePathState::getPath(const State& state) const {
+    return Value<CablePath>::downcast(m_cables->getDiscreteVarUpdateValue(state, m_path));
 }
 
-PathSolution& CablePathState::updPath(const State& state) const {
-    return Value<PathSolution>::updDowncast(m_cables->updDiscreteVarUpdateValue(state, m_path));
+CablePath& CablePathState::updPath(const State& state) const {
+    return Value<CablePath>::updDowncast(m_cables->updDiscreteVarUpdateValue(state, m_path));
 }
 
 void CablePathState::markPathRealized(const State& state) const {

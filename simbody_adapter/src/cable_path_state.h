@@ -14,21 +14,25 @@ struct CableMode {
     bool keepsContacts = false;  ///< false: found anew in every pose
 };
 
+/** A cable's path and the pose for which it was solved. */
+struct CablePath {
+    PathSolution solution;
+    PathPose pose;                     ///< empty: not known
+    std::vector<SpatialForce> forces;  ///< of unit tension on the elements, about their origins, in ground
+};
+
 /** Room for the solves of one cable in one State, kept in the State's cache so that States can be realized
 side by side. Nothing in it changes an answer; the solver's scratch is not worth copying. */
 struct CableWorkspace {
     explicit CableWorkspace(const PathSolverOptions& options) : solver(options) {}
-    CableWorkspace(const CableWorkspace& source) : solver(source.solver.getOptions()), pose(source.pose) {}
+    CableWorkspace(const CableWorkspace& source) : solver(source.solver.getOptions()) {}
     CableWorkspace& operator=(const CableWorkspace& source) {
         solver = PathSolver(source.solver.getOptions());
-        pose = source.pose;
         return *this;
     }
 
     PathSolver solver;
-    PathPose pose;  ///< of the path last solved
     std::vector<SpatialVelocity> velocities;
-    std::vector<SpatialForce> forces;
     PathSensitivity sensitivity;
     PathVariation variation;
 };
@@ -36,23 +40,24 @@ struct CableWorkspace {
 /** Where a cable's variables and cache entries stand in a State.
 
 Mode: a discrete variable that invalidates Position. Path: an auto-update discrete variable; its value is
-the start of the next solve, contact set included, its update value the path of the present pose, which a
-study swaps in when it accepts a step. Rate and bias (of the second derivative): cached at Velocity. */
+the start of the next solve, contact set included, its update value the path of the present pose with its unit forces,
+which a study swaps in when it accepts a step. Rate and bias (of the second derivative): cached at Velocity. */
 class CablePathState {
 public:
     /** To be called from realizeTopology(). */
     void allocate(const SimTK::Subsystem::Guts& cables, SimTK::State& state, const CableMode& defaultMode,
                   const PathSolverOptions& options);
 
+    /** Stage: Topology, as for all that follows. */
     const CableMode& getMode(const SimTK::State& state) const;
     void setMode(SimTK::State& state, const CableMode& mode) const;
 
-    const PathSolution& getStart(const SimTK::State& state) const;
-    void setStart(SimTK::State& state, const PathSolution& start) const;
+    const CablePath& getStart(const SimTK::State& state) const;
+    CablePath& updStart(SimTK::State& state) const;
 
     bool isPathRealized(const SimTK::State& state) const;
-    const PathSolution& getPath(const SimTK::State& state) const;
-    PathSolution& updPath(const SimTK::State& state) const;
+    const CablePath& getPath(const SimTK::State& state) const;
+    CablePath& updPath(const SimTK::State& state) const;
     void markPathRealized(const SimTK::State& state) const;
 
     bool isRateRealized(const SimTK::State& state) const;

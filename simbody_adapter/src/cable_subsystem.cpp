@@ -65,6 +65,7 @@ Cable& CableSubsystemImpl::updCable(CableIndex cable) {
 }
 
 void CableSubsystemImpl::ensureStage(const State& state, Stage stage, const char* method) const {
+    SimTK_STAGECHECK_GE_ALWAYS(state.getSystemStage(), Stage(Stage::Topology), method);
     if (getStage(state) >= stage) return;
     SimTK_STAGECHECK_GE_ALWAYS(getMatter().getStage(state), stage, method);
     SimTK_STAGECHECK_GE_ALWAYS(getStage(state), Stage(Stage::Time), method);
@@ -100,11 +101,15 @@ void CableSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause caus
     getSystem().realize(state, Stage::Position);
     // All paths first: each change of the State below would have the free ones solved anew.
     std::vector<PathSolution> paths(m_impls.size());
+    std::vector<PathPose> poses(m_impls.size());
     for (std::size_t i = 0; i < m_impls.size(); ++i)
-        if (!m_impls[i]->isDisabled(state)) paths[i] = m_impls[i]->calcSettledPath(state);
+        if (!m_impls[i]->isDisabled(state)) {
+            paths[i] = m_impls[i]->calcSettledPath(state);
+            poses[i] = m_impls[i]->getPose(state);
+        }
     for (std::size_t i = 0; i < m_impls.size(); ++i)
         if (!paths[i].isEmpty() && paths[i].status != PathStatus::NotConverged)
-            m_impls[i]->keepContacts(state, paths[i]);
+            m_impls[i]->keepContacts(state, paths[i], poses[i]);
     results.setAnyChangeMade(true);
 }
 

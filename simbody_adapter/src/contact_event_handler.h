@@ -5,15 +5,32 @@
 
 namespace tautline {
 
-/** Watches one element of one cable at Stage::Position, by default for a witness that falls through zero. Added to the
-System, not allocated in the CableSubsystem: Simbody 3.7 mixes up the witnesses of a subsystem of one's own with those
-of a user's handlers at later stages. */
-class ElementEventHandler : public SimTK::TriggeredEventHandler {
+/** Watches a cable at Stage::Position, by default for a witness that falls through zero, and then settles its contacts.
+Added to the System, not allocated in the CableSubsystem: Simbody 3.7 mixes up the witnesses of a subsystem of one's own
+with those of a user's handlers at later stages. */
+class CableEventHandler : public SimTK::TriggeredEventHandler {
 public:
-    ElementEventHandler(const CableImpl& cable, CableElementIndex element);
+    explicit CableEventHandler(const CableImpl& cable);
+    void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
 
 protected:
     const CableImpl& m_cable;
+};
+
+/** Watches whether the path as a whole still holds: that it can be found with its contacts kept, and is no saddle. */
+class StabilityEventHandler : public CableEventHandler {
+public:
+    using CableEventHandler::CableEventHandler;
+    SimTK::Real getValue(const SimTK::State& state) const override;
+};
+
+/** Watches one element. */
+class ElementEventHandler : public CableEventHandler {
+public:
+    ElementEventHandler(const CableImpl& cable, CableElementIndex element)
+        : CableEventHandler(cable), m_element(element) {}
+
+protected:
     CableElementIndex m_element;
 };
 
@@ -22,7 +39,6 @@ class ContactEventHandler : public ElementEventHandler {
 public:
     using ElementEventHandler::ElementEventHandler;
     SimTK::Real getValue(const SimTK::State& state) const override;
-    void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
 };
 
 /** Watches whether one arc still describes how a surface that is not convex holds the cable, and reports where it no
@@ -40,7 +56,6 @@ class ConditionEventHandler : public ElementEventHandler {
 public:
     ConditionEventHandler(const CableImpl& cable, CableElementIndex point);
     SimTK::Real getValue(const SimTK::State& state) const override;
-    void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
 };
 
 }  // namespace tautline

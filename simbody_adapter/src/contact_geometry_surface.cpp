@@ -54,6 +54,12 @@ private:
 
 namespace {
 
+/** How far a surface is from a point next to it [m]. */
+double calcOffset(const ContactGeometrySurface& surface, const Vec3& p_S) {
+    const ImplicitValue value = surface.calcImplicit(p_S);
+    return std::abs(value.f) / value.gradient.norm();
+}
+
 /** The smallest radius of curvature where the way down from (1, 1, 1) meets the surface: a length that goes
 with the geometry's own. */
 double calcSmallestRadius(const Surface& surface) {
@@ -71,9 +77,18 @@ ContactGeometrySurface::ContactGeometrySurface(const SimTK::ContactGeometry& geo
     if (SimTK::ContactGeometry::SmoothHeightMap::isInstance(geometry))
         m_heightMap = std::make_shared<HeightMapPatch>(
             SimTK::ContactGeometry::SmoothHeightMap::getAs(geometry).getBicubicSurface());
-    if (size == 0) m_size = m_heightMap ? m_heightMap->getSize() : calcSmallestRadius(*this);
+    if (size == 0) m_size = m_heightMap ? m_heightMap->getSize() : findSize();
     require(std::isfinite(m_size) && m_size > 0, "contact geometry surface: size must be positive and finite, but is ",
             m_size);
+}
+
+/** The way down is made of steps no longer than the size, of which there is a limited number: it has to be large
+enough. */
+double ContactGeometrySurface::findSize() {
+    constexpr double kLargest = 1e12, kOnSurface = 1e-6;
+    for (m_size = 1; m_size < kLargest; m_size *= 10)
+        if (calcOffset(*this, findSurfacePoint(Vec3::Ones()).p) < kOnSurface * m_size) return calcSmallestRadius(*this);
+    return kNaN;
 }
 
 std::string ContactGeometrySurface::getDescription() const {

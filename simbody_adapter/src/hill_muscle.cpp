@@ -15,16 +15,25 @@ void requirePositive(Real value, const char* what) {
     require(std::isfinite(value) && value > 0, "hill muscle: ", what, " must be positive and finite, but is ", value);
 }
 
-void requireFraction(Real value, const char* what) {
-    require(value >= 0 && value <= 1, "hill muscle: ", what, " must be in [0, 1], but is ", value);
+/** @param owner   "hill muscle", with its cable where that is known */
+void requireFraction(const std::string& owner, Real value, const char* what) {
+    require(value >= 0 && value <= 1, owner, ": ", what, " must be in [0, 1], but is ", value);
+}
+
+/** @return the parameters. @throws InvalidInput as validate(), with the cable's name */
+const HillMuscleParameters& validateFor(const Cable& cable, const HillMuscleParameters& parameters) {
+    try {
+        parameters.validate();
+    } catch (const InvalidInput& error) {
+        throw InvalidInput("cable '" + cable.getName() + "': " + error.what());
+    }
+    return parameters;
 }
 
 class HillMuscleLaw : public CableForceLaw {
 public:
     HillMuscleLaw(const Cable& cable, const HillMuscleParameters& parameters)
-        : CableForceLaw(cable), m_parameters(parameters) {
-        parameters.validate();
-    }
+        : CableForceLaw(cable), m_parameters(validateFor(cable, parameters)) {}
 
     const HillMuscleParameters& getParameters() const { return m_parameters; }
     void setExcitationFunction(std::function<Real(const State&)> calcExcitation) {
@@ -37,7 +46,7 @@ public:
 
     Real calcExcitation(const State& state) const;
     void setExcitation(State& state, Real excitation) const;
-    Real getActivation(const State& state) const { return m_forces->getZ(state)[m_activation]; }
+    Real getActivation(const State& state) const;
     void setActivation(State& state, Real activation) const;
 
     /** Of the fibre along the tendon [m]; negative: shorter than the tendon, slack. */
@@ -57,6 +66,8 @@ public:
     }
 
 private:
+    std::string describe() const { return "hill muscle on cable '" + getCable().getName() + "'"; }
+
     HillMuscleParameters m_parameters;
     std::function<Real(const State&)> m_calcExcitation;
     const SimTK::Subsystem* m_forces = nullptr;
@@ -87,19 +98,28 @@ void HillMuscleLaw::realizeDerivatives(const State& state, const SimTK::Subsyste
 }
 
 Real HillMuscleLaw::calcExcitation(const State& state) const {
+    ensureTopology(state, "HillMuscle::getExcitation()");
     if (m_calcExcitation) return SimTK::clamp(Real(0), m_calcExcitation(state), Real(1));
     return SimTK::Value<Real>::downcast(m_forces->getDiscreteVariable(state, m_excitation));
 }
 
 void HillMuscleLaw::setExcitation(State& state, Real excitation) const {
-    requireFraction(excitation, "excitation");
-    require(!m_calcExcitation, "hill muscle on cable '", getCable().getName(),
-            "': the excitation is given by a function and cannot be set");
+    requireFraction(describe(), excitation, "excitation");
+    require(!m_calcExcitation, describe(), ": the excitation is given by a function and cannot be set");
+    ensureTopology(state, "HillMuscle::setExcitation()");
     SimTK::Value<Real>::updDowncast(m_forces->updDiscreteVariable(state, m_excitation)) = excitation;
 }
 
+Real HillMuscleLaw::getActivation(const State& state) const {
+    SimTK_STAGECHECK_GE_ALWAYS(state.getSystemStage(), SimTK::Stage(SimTK::Stage::Model),
+                               "HillMuscle::getActivation()");
+    return m_forces->getZ(state)[m_activation];
+}
+
 void HillMuscleLaw::setActivation(State& state, Real activation) const {
-    requireFraction(activation, "activation");
+    requireFraction(describe(), activation, "activation");
+    SimTK_STAGECHECK_GE_ALWAYS(state.getSystemStage(), SimTK::Stage(SimTK::Stage::Model),
+                               "HillMuscle::setActivation()");
     m_forces->updZ(state)[m_activation] = activation;
 }
 
@@ -125,8 +145,8 @@ void HillMuscleParameters::validate() const {
     requirePositive(concentricShape, "concentricShape");
     require(std::isfinite(eccentricForce) && eccentricForce > 1,
             "hill muscle: eccentricForce must be finite and above 1, but is ", eccentricForce);
-    requireFraction(defaultExcitation, "defaultExcitation");
-    requireFraction(defaultActivation, "defaultActivation");
+    requireFraction("hill muscle", defaultExcitation, "defaultExcitation");
+    requireFraction("hill muscle", defaultActivation, "defaultActivation");
 }
 
 Real calcActiveForceLength(const HillMuscleParameters& parameters, Real fibreLength) {

@@ -61,6 +61,30 @@ TEST(Program, RefusesAWrongCommandOrOptionWithANonZeroExit) {
     }
 }
 
+// 2026-11-25: the first aborted, the next three went on with exit 0 or a limit of 300 digits, the last overflowed an
+// int.
+TEST(Program, RefusesNumbersThatAreNoneOrOutOfRangeByNameAndLimit) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"--accuracy nan", "--accuracy is nan, but must be in [1e-14, 0.1]"},
+        {"--duration nan", "--duration is nan, but must be above 0 and at most 1000000 s"},
+        {"--interval nan", "--interval is nan, but must be above 0 and finite"},
+        {"--duration inf", "--duration is inf, but must be above 0 and at most 1000000 s"},
+        {"--interval 1e-300", " rows of the duration of 1 s, but there may be at most 10000000"},
+        {"--accuracy 0.5", "--accuracy is 0.5, but must be in [1e-14, 0.1]"},
+        {"--accuracy 0", "--accuracy is 0, but must be in"},
+        {"--accuracy=-inf", "--accuracy is -inf, but must be in"},
+        {"--duration 0", "--duration is 0, but must be above 0"},
+        {"--duration 2e6", "--duration is 2000000, but must be above 0 and at most 1000000 s"},
+        {"--interval 0", "--interval is 0, but must be above 0 and finite"},
+        {"--interval inf", "--interval is inf, but must be above 0 and finite"}};
+    for (const auto& [option, message] : cases) {
+        const Outcome outcome = runProgram("run " + kElbow + " " + option);
+        EXPECT_EQ(outcome.exitCode, 1) << option;
+        EXPECT_NE(outcome.text.find(message), std::string::npos) << option << ": " << outcome.text;
+        EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+    }
+}
+
 TEST(Program, NamesAMissingFileInOneLine) {
     const Outcome outcome = runProgram("run no_such_model.osim");
     EXPECT_EQ(outcome.exitCode, 1);

@@ -184,6 +184,17 @@ TEST(CableConstraintTest, AStateOffTheConstraintIsBroughtOntoIt) {
     EXPECT_NEAR(scene.cable.getLengthRate(state), 0, 1e-11);
 }
 
+TEST(CableConstraintTest, ADisabledCableUnderItIsNamed) {
+    SwingingOverCylinder scene;
+    const CableConstraint constraint(scene.matter, scene.cable, kStartLength);
+    State state = scene.makeStart();
+    scene.cable.disable(state);
+    const std::string name = "the constraint on cable '" + scene.cable.getName() + "' is enabled, but the cable is";
+    EXPECT_MESSAGE(scene.system.realize(state, Stage::Velocity), name);
+    constraint.disable(state);
+    EXPECT_NO_THROW(scene.system.realize(state, Stage::Velocity));
+}
+
 TEST(CableConstraintTest, UnsuitableInputIsRefused) {
     SwingingOverCylinder scene, other;
     EXPECT_MESSAGE(CableConstraint(scene.matter, Cable(), 1), "empty handle");

@@ -13,8 +13,8 @@ struct BobbingString : BareScene {
     enum class Drive { Prescribed, Spring };
 
     explicit BobbingString(std::shared_ptr<const Surface> surface, const Transform& X_GS = Transform(),
-                           Drive drive = Drive::Prescribed, Real rise = 0)
-        : isFree(drive == Drive::Spring) {
+                           Drive drive = Drive::Prescribed, Real rise = 0, Real driveFrequency = 3)
+        : isFree(drive == Drive::Spring), frequency(driveFrequency) {
         const SimTK::Rotation upward(SimTK::Pi / 2, SimTK::ZAxis);  // a slider goes along x
         slider = MobilizedBody::Slider(matter.Ground(), Transform(upward, SimTK::Vec3(0, 0.5 + rise, 0)), makeBody(),
                                        Transform(upward));
@@ -43,8 +43,9 @@ struct BobbingString : BareScene {
         finalState = integrator.getState();
     }
 
-    static constexpr Real amplitude = 0.3, frequency = 3, phase = 0.4;
+    static constexpr Real amplitude = 0.3, phase = 0.4;
     bool isFree;
+    Real frequency;  ///< [rad/s]
     MobilizedBody slider;
     Cable cable;
     CableElementIndex obstacle;
@@ -199,23 +200,32 @@ TEST(ContactEvents, LengthAndRateAreContinuousAtAnyAccuracy) {
     for (const SectionCase& section : makeSectionCases()) {
         SCOPED_TRACE(section.surface->getDescription());
         Real lengthJump = 0, rateJump = 0;
-        for (const auto drive : {BobbingString::Drive::Prescribed, BobbingString::Drive::Spring}) {
-            for (int digits = 2; digits <= 9; ++digits) {
-                BobbingString scene(section.surface, section.X_GS, drive);
-                scene.simulate(std::pow(10.0, -digits), 6);
-                // Neither an event missed nor one too many, such as a lift-off right after the touchdown.
-                ASSERT_EQ(scene.events.size(), 5u) << "accuracy 1e-" << digits;
-                for (const ContactEvent& event : scene.events) {
-                    lengthJump = std::max(lengthJump, std::abs(event.lengthAfter / event.lengthBefore - 1));
-                    rateJump = std::max(rateJump, std::abs(event.rateAfter - event.rateBefore));
-                }
+        const auto measure = [&](const BobbingString& scene) {
+            for (const ContactEvent& event : scene.events) {
+                lengthJump = std::max(lengthJump, std::abs(event.lengthAfter / event.lengthBefore - 1));
+                rateJump = std::max(rateJump, std::abs(event.rateAfter - event.rateBefore) /
+                                                  (BobbingString::amplitude * scene.frequency));
             }
+        };
+        // Neither an event missed nor one too many, such as a lift-off right after the touchdown.
+        for (int digits = 2; digits <= 9; ++digits) {
+            BobbingString scene(section.surface, section.X_GS, BobbingString::Drive::Spring);
+            scene.simulate(std::pow(10.0, -digits), 6);
+            ASSERT_EQ(scene.events.size(), 5u) << "accuracy 1e-" << digits;
+            measure(scene);
         }
-        const Real fastest = BobbingString::amplitude * BobbingString::frequency;
+        // 2026-11-25: fast drives at loose accuracies, where events were localized to 1e-8 s, had jumps of up to 4e-6.
+        for (const Real frequency : {3, 300, 3000})
+            for (int digits = 1; digits <= 9; digits += 2) {
+                BobbingString scene(section.surface, section.X_GS, BobbingString::Drive::Prescribed, 0, frequency);
+                scene.simulate(std::pow(10.0, -digits), 18 / frequency, 0.3 / frequency);
+                ASSERT_EQ(scene.events.size(), 5u) << "accuracy 1e-" << digits << ", " << frequency << " rad/s";
+                measure(scene);
+            }
         std::printf("[measured] jumps at events: length %.1e of itself, rate %.1e of the ends' speed\n", lengthJump,
-                    rateJump / fastest);
+                    rateJump);
         EXPECT_LT(lengthJump, 1e-9);
-        EXPECT_LT(rateJump, 1e-7 * fastest);
+        EXPECT_LT(rateJump, 1e-7);
     }
 }
 

@@ -114,6 +114,12 @@ TEST(ContactGeometrySurfaceTest, EverySmoothKindObeysTheLaws) {
     }
 }
 
+// 2026-11-25: spheres of radii far above 50 had a size of 51.7.
+TEST(ContactGeometrySurfaceTest, ItsSizeGoesWithTheGeometryFromMillimetresToKilometres) {
+    for (const double radius : {1e-3, 0.5, 60.0, 1e3, 1e6})
+        EXPECT_NEAR(ContactGeometrySurface(SimTK::ContactGeometry::Sphere(radius)).getSize(), radius, 1e-9 * radius);
+}
+
 TEST(ContactGeometrySurfaceTest, AHalfSpaceIsAPlaneAndNeedsASize) {
     // SimTK's half space is where x > 0.
     const ContactGeometrySurface surface(SimTK::ContactGeometry::HalfSpace(), 2);

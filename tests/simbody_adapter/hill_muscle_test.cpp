@@ -108,6 +108,7 @@ TEST(HillMuscleTest, RefusesBadParametersByNameAndValue) {
         HillMuscleParameters parameters;
         parameters.*member = value;
         EXPECT_MESSAGE(HillMuscle(scene.forces, cable, parameters), message);
+        EXPECT_MESSAGE(HillMuscle(scene.forces, cable, parameters), "cable '" + cable.getName() + "': hill muscle: ");
     };
     using P = HillMuscleParameters;
     expectRefused(&P::maxIsometricForce, -5, "maxIsometricForce must be positive and finite, but is -5");
@@ -118,6 +119,10 @@ TEST(HillMuscleTest, RefusesBadParametersByNameAndValue) {
     expectRefused(&P::eccentricForce, 1, "eccentricForce must be finite and above 1, but is 1");
     expectRefused(&P::defaultActivation, 2, "defaultActivation must be in [0, 1], but is 2");
     EXPECT_EQ(scene.forces.getNumForces(), 0);
+    const HillMuscle muscle(scene.forces, cable, HillMuscleParameters());
+    State state = scene.system.realizeTopology();
+    EXPECT_MESSAGE(muscle.setActivation(state, -1),
+                   "hill muscle on cable '" + cable.getName() + "': activation must be");
 }
 
 }  // namespace

@@ -1,15 +1,31 @@
 #include "tautline/paths/contact_settling.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "paths/geodesic_variations.h"
 #include "paths/obstacle_walk.h"
 #include "tautline/paths/contact_switch.h"
+#include "tautline/paths/path_stability.h"
+#include "tautline/paths/path_verification.h"
 
 namespace tautline {
 namespace {
 
-/** @return the obstacle with the lowest witness below zero, -1 if there is none */
+/** An event is found where a witness has fallen through zero, but solved once more it may be above by rounding. */
+constexpr double kWitnessRounding = 1e-12, kMarginRounding = 1e-8;
+
+constexpr int kRefinements = 3;     ///< of Newton's method
+constexpr double kSettled = 1e-14;  ///< path error of a path whose contacts are judged
+
+bool holds(const PathStability& stability) {
+    return stability.margin > kSlipMargin + kMarginRounding;
+}
+
+/** @return the obstacle with the lowest witness below zero, to rounding; -1 if there is none */
 int findLowestWitness(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     int worst = -1;
-    double lowest = 0;
+    double lowest = kWitnessRounding;
     visitObstacles(problem, pose, [&](int e) {
         const double witness = calcContactWitness(problem, path, e);
         if (witness < lowest) lowest = witness, worst = e;
@@ -17,22 +33,119 @@ int findLowestWitness(const PathProblem& problem, const PathPose& pose, const Pa
     return worst;
 }
 
-}  // namespace
+int findFirstTouched(const PathSolution& path) {
+    for (std::size_t e = 0; e < path.contacts.size(); ++e)
+        if (path.contacts[e].isTouched) return static_cast<int>(e);
+    return -1;
+}
 
-bool settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
-    const PathSolution before = path;
+/** A path's contacts are judged to rounding, as far as its geodesics are shot so well: what is left of the path error
+turns a long segment off a thin obstacle by more than the tolerance of contact. */
+void refine(const PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    PathSolverOptions options = solver.getOptions();
+    options.pathErrorTolerance = std::min(options.pathErrorTolerance, kSettled);
+    options.maxIterations = std::min(options.maxIterations, kRefinements);
+    PathSolution refined = path;
+    PathSolver(options).solveKeepingContacts(problem, pose, refined);
+    if (!(refined.pathError < path.pathError)) return;
+    refined.status = path.status;
+    path = refined;
+}
+
+/** @return true if no witness is left below zero */
+bool switchContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const int maxSwitches = 2 * problem.getNumElements();
     for (int i = 0; i < maxSwitches; ++i) {
         const int worst = findLowestWitness(problem, pose, path);
-        if (worst < 0) return !haveSameContacts(before, path);
+        if (worst < 0) return true;
         switchContact(problem, pose, worst, path);
         solver.solveKeepingContacts(problem, pose, path);
-        if (path.status == PathStatus::NotConverged) break;
+        if (path.status == PathStatus::NotConverged) return false;
+        refine(solver, problem, pose, path);
     }
-    path = before;
-    solver.solve(problem, pose, path);
-    if (path.status == PathStatus::NotConverged) path = before;
-    return !haveSameContacts(before, path);
+    return false;
+}
+
+/** Moves the arc of an obstacle sideways, by a part of the surface's size. */
+void pushArc(const PathProblem& problem, int e, double push, PathSolution& path) {
+    const Surface& surface = *problem.getElement(e).surface;
+    ObstacleContact& contact = path.contacts[e];
+    contact.start =
+        calcCorrectedStart(surface, contact.start, contact.geodesic.P, Vec4(0, push * surface.getSize(), 0, 0));
+}
+
+bool isMinimum(const PathSolution& path) {
+    return path.status == PathStatus::Solved || path.status == PathStatus::EndInside;
+}
+
+/** Lets the solver go on from a path that is no minimum. @return true if it has come to one that is no longer */
+bool goOn(PathSolver& solver, const PathProblem& problem, const PathPose& pose, const PathSolution& from,
+          PathSolution& path) {
+    constexpr double kRounding = 1e-12;
+    PathSolution next = from;
+    solver.solve(problem, pose, next);
+    if (!isMinimum(next) || !(next.length <= (1 + kRounding) * path.length)) return false;
+    path = next;
+    return true;
+}
+
+/** The solver goes downhill from a saddle by itself; where it does not come to a shorter path, it is pushed off to
+either side. @return the obstacle at which the path was a saddle, if it is now a minimum; else -1 */
+int leaveSaddle(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    const PathStability stability = calcPathStability(problem, pose, path);
+    if (holds(stability)) return -1;
+    for (const double push : {0.0, 0.3, -0.3, 1.0, -1.0}) {
+        PathSolution pushed = path;
+        if (push != 0) pushArc(problem, stability.element, push, pushed);
+        if (goOn(solver, problem, pose, pushed, path)) return stability.element;
+    }
+    return -1;
+}
+
+/** A contact just made may break other conditions of a minimum. */
+void leaveFalseContact(PathSolver& solver, const PathProblem& problem, const PathPose& pose, const PathSolution& before,
+                       PathSolution& path) {
+    const PathVerification verification = verifyPath(problem, pose, path);
+    if (verification.isMinimum() || verification.condition == PathVerification::Condition::Unstable) return;
+    const int e = verification.element;
+    if (path.contacts[e].isTouched && !before.contacts[e].isTouched)
+        goOn(solver, problem, pose, PathSolution(path), path);
+}
+
+/** Lets the solver find a contact set. @return true if it has come to a path */
+bool solveAnew(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    PathSolution next = path;
+    solver.solve(problem, pose, next);
+    if (next.status == PathStatus::NotConverged) return false;
+    path = next;
+    return true;
+}
+
+/** Whether a string that was where it could not stay, or that has jumped, has slipped: it has not if it had only been
+watched on a side where it does not pass. */
+bool hasSlipped(const PathProblem& problem, const PathPose& pose, const PathSolution& before,
+                const PathSolution& after) {
+    constexpr double kContinuous = 1e-9;  // of the length
+    if (!(std::abs(after.length / before.length - 1) < kContinuous)) return true;
+    return before.status != PathStatus::NotConverged && !holds(calcPathStability(problem, pose, before));
+}
+
+}  // namespace
+
+int settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    const PathSolution before = path;
+    if (path.status != PathStatus::NotConverged) refine(solver, problem, pose, path);
+    const bool hasWitnesses = path.status != PathStatus::NotConverged || hasSwallowedEnd(path);
+    int slippedAt = -1;
+    if (hasWitnesses && switchContacts(solver, problem, pose, path)) {
+        leaveFalseContact(solver, problem, pose, before, path);
+        slippedAt = leaveSaddle(solver, problem, pose, path);
+    } else {
+        path = before;
+        if (solveAnew(solver, problem, pose, path)) slippedAt = findFirstTouched(before);
+    }
+    if (path.status != PathStatus::NotConverged) refine(solver, problem, pose, path);
+    return hasSlipped(problem, pose, before, path) ? slippedAt : -1;
 }
 
 }  // namespace tautline

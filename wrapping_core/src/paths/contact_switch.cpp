@@ -52,6 +52,11 @@ void liftContact(ObstacleContact& contact) {
     contact.clearance.keptN = contact.geodesic.P.N;
 }
 
+bool hasSwallowedEnd(const PathSolution& path) {
+    return std::any_of(path.contacts.begin(), path.contacts.end(),
+                       [](const ObstacleContact& contact) { return contact.isTouched && contact.isSwitchedOff; });
+}
+
 bool haveSameContacts(const PathSolution& a, const PathSolution& b) {
     if (a.contacts.size() != b.contacts.size()) return false;
     for (std::size_t e = 0; e < a.contacts.size(); ++e)

@@ -135,10 +135,15 @@ bool PathSolver::findKeptPath(const PathProblem& problem, const PathPose& pose, 
     return false;
 }
 
-/** Switches off the obstacles in which an end of their strand lies: no string lies over them. */
+/** Switches off the obstacles in which an end of their strand lies: no string lies over them. The side on which one was
+passed before, or the way through its hole, ends with that: an end may come out anywhere. */
 void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
     Vec3 N_S;
-    for (ObstacleContact& contact : path.contacts) contact.isSwitchedOff = false;
+    for (ObstacleContact& contact : path.contacts) {
+        if (contact.isSwitchedOff) contact.passage = HolePassage();
+        if (contact.isSwitchedOff && !contact.isTouched) contact.clearance = LineClearance();
+        contact.isSwitchedOff = false;
+    }
     visitStrandEnds(problem, pose, [&](int point, int e) {
         const Surface& surface = *problem.getElement(e).surface;
         const double height = surface.calcHeightOverDomain(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);

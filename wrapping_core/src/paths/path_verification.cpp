@@ -6,6 +6,7 @@
 #include "geodesics/arc_walker.h"
 #include "tautline/geodesics/geodesic_events.h"
 #include "tautline/paths/contact_switch.h"
+#include "tautline/paths/path_stability.h"
 
 namespace tautline {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using Condition = PathVerification::Condition;
 
 constexpr double kRounding = 1e-9;  ///< of curvatures and heights in sizes: what differences of solved places leave
-constexpr double kNeutral = 1e-9;   ///< relative second variation below which a path is neither stable nor unstable
 
 /** True if the arc presses on its surface all along: kappa_n <= 0. */
 bool pressesEverywhere(const Surface& surface, const ObstacleContact& contact) {
@@ -52,41 +52,6 @@ Condition verifyContact(const Surface& surface, const Pose& X_GS, const Obstacle
     if (!pressesEverywhere(surface, contact)) return Condition::PullsOutward;
     if (meetsOwnSurface(surface, X_GS, in) || meetsOwnSurface(surface, X_GS, out)) return Condition::Penetration;
     return Condition::None;
-}
-
-/** Second variation of the length over sideways displacements b of the contact points along their binormals:
-
-    sum over lines of (b_Q^2 + b_P^2 - 2 b_Q b_P B_Q.B_P)/l  +  sum over arcs of the index form of the Jacobi fields,
-
-a symmetric tridiagonal form in (b_P, b_Q) of all contacts in order, positive definite at a strict minimum. Its
-pivots, in terms of the displacement y and slope y' of the sideways field that stays taut from the fixed point
-behind: on an arc y_Q = a y_P + r y_P', y_Q' = a' y_P + r' y_P'; on a line slopes sigma = y'/y obey
-sigma_P = 1/l - (B_Q.B_P/l)^2/(sigma_Q + 1/l). @return the first contact at which a pivot is not positive, or -1 */
-int findUnstableContact(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
-    double sigmaQ = 0;  // slope at the end of the last arc
-    Vec3 BQ = Vec3::Zero();
-    for (std::size_t j = 0; j + 1 < path.segments.size(); ++j) {
-        const StraightSegment &in = path.segments[j], &out = path.segments[j + 1];
-        const int e = in.toElement;
-        if (problem.getElement(e).isPoint()) continue;
-        const Geodesic& arc = path.contacts[e].geodesic;
-        const Pose& X_GS = pose.X_GE[e];
-        // From a fixed point y : y' = l : 1; from an arc, the pivot.
-        double y = in.length, slope = 1;
-        if (!problem.getElement(in.fromElement).isPoint()) {
-            const double twist = BQ.dot(X_GS.rotate(arc.P.B));
-            y = 1, slope = 1 / in.length - twist * twist / (in.length * in.length * (sigmaQ + 1 / in.length));
-        }
-        const double yQ = arc.a * y + arc.r * slope, slopeQ = arc.aDot * y + arc.rDot * slope;
-        const double bend = slopeQ * out.length;
-        // A path over a sphere between opposite points can turn freely: neutral, and a minimum like its neighbours.
-        const bool isLast = problem.getElement(out.toElement).isPoint();
-        const double margin = isLast ? -kNeutral * (std::abs(bend) + std::abs(yQ)) : 0;
-        if (!(yQ > 0) || !(bend + yQ > margin)) return e;
-        sigmaQ = slopeQ / yQ;
-        BQ = X_GS.rotate(arc.Q.B);
-    }
-    return -1;
 }
 
 /** Where on its arc a touched obstacle breaks a condition, in S. */
@@ -134,9 +99,10 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
             return {Condition::Penetration, e, pose.X_GE[e] * contact.clearance.C.p};
         }
     }
-    const int unstable = findUnstableContact(problem, pose, path);
-    if (unstable >= 0)
-        return {Condition::Unstable, unstable, pose.X_GE[unstable] * path.contacts[unstable].geodesic.P.x};
+    const PathStability stability = calcPathStability(problem, pose, path);
+    if (!stability.isStable())
+        return {Condition::Unstable, stability.element,
+                pose.X_GE[stability.element] * path.contacts[stability.element].geodesic.P.x};
     return {};
 }
 

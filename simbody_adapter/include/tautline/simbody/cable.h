@@ -21,12 +21,21 @@ class CableImpl;
 which they were added, last the insertion. */
 SimTK_DEFINE_UNIQUE_INDEX_TYPE(CableElementIndex);
 
-/** A contact that was made (touchdown) or lost (lift-off) in a time-stepping study; a contact that is one arc no longer
-(Split: its pressure turns inside, or a segment beside it meets the same surface again), which stays as it is and makes
-the path NotMinimum; or a ring (an obstacle with a hole) that a cable has left though it was threaded through it: the
-step was too long to see what held it. */
+/** What befell a contact in a time-stepping study. It was made (touchdown) or lost (lift-off), both without a jump of
+length or rate.
+
+Slipped: the cable could stay where it was no longer. Its path had become a saddle of the length, or come to an end, and
+the cable snaps to the shortest path next to it, with other contacts or the same ones; events of contacts made and lost
+on the way follow. The length jumps down, from lengthBefore to lengthAfter, and the rate jumps: a force element that
+stores energy loses what it stored in the difference, and no law says where to.
+
+Split: it is one arc no longer (its pressure turns inside, or a segment beside it meets the same surface again), stays
+as it is and makes the path NotMinimum.
+
+LeftHole: a ring (an obstacle with a hole) that a cable has left though it was threaded through it: the step was too
+long to see what held it. */
 struct ContactEvent {
-    enum class Kind { Made, Lost, Split, LeftHole };
+    enum class Kind { Made, Lost, Split, LeftHole, Slipped };
     SimTK::Real time;  ///< [s]
     CableIndex cable;
     CableElementIndex obstacle;
@@ -43,6 +52,7 @@ struct CableStatistics {
     long numIterations = 0;       ///< of Newton's method
     long numShots = 0;            ///< geodesics shot
     long numContactEvents = 0;    ///< contacts made or lost by the event handlers
+    long numSlips = 0;            ///< paths that lost their stability and were left by the event handlers
     long numHolesLeft = 0;        ///< rings that the cable went through in a step
     double seconds = 0;           ///< spent in the solver
     long numSteps = 0;            ///< accepted steps that CableSubsystem::countStep() was told of
@@ -142,7 +152,7 @@ public:
     a study runs; null: nobody is told. */
     void setContactListener(std::function<void(const ContactEvent&)> listener) const;
 
-    /** @name State [Model]: changing it invalidates Position */
+    /** @name State [Topology]: changing it invalidates Position */
     ///@{
     void disable(SimTK::State& state) const;
     void enable(SimTK::State& state) const;
@@ -160,7 +170,8 @@ public:
     void continueFrom(SimTK::State& state, const PathSolution& path) const;
 
     /** Lets every realize(Position) find the contact set anew. Call it after moving a State that comes from
-    an integrator to another pose. */
+    an integrator to another pose. While contacts are free there are no events: for a study to have them again,
+    fixContacts() must follow, or the study be initialized anew. */
     void releaseContacts(SimTK::State& state) const;
     bool areContactsFixed(const SimTK::State& state) const;
     ///@}
@@ -170,7 +181,8 @@ public:
     SimTK::Real getLength(const SimTK::State& state) const;
     PathStatus getStatus(const SimTK::State& state) const;
     /** As getStatus(), with all conditions judged also while contacts are fixed. An arc just below zero length is no
-    fault then: between events the event finder watches it. A path that has left a ring since the step before is
+    fault then, nor a path just beyond the loss of its stability (kSlipMargin): between events the event finder
+    watches them. A path that has left a ring since the step before is
     NotMinimum. */
     PathStatus calcStatus(const SimTK::State& state) const;
     /** max |eps|, dimensionless. */
@@ -207,7 +219,8 @@ public:
     std::vector<SimTK::Vec3> calcDrawingPoints(const SimTK::State& state, SimTK::Real maxAngle = 0.1) const;
     ///@}
 
-    /** @name Forces: unit tension unless one is given [Position] */
+    /** @name Forces: unit tension unless one is given [Position]
+    The unit forces on the elements are computed with the path; what is summed from them here is not kept. */
     ///@{
     /** Adds the forces of a tension [N] to those of all bodies, about body origins, in ground. A cable with moving
     points needs applyMobilityForces() beside it.

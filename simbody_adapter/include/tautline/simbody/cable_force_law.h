@@ -27,6 +27,10 @@ public:
     /** Allocate discrete variables and z's here, with the methods of `forces`. */
     virtual void realizeTopology(SimTK::State&, const SimTK::Subsystem& /*forces*/) {}
 
+    /** For methods that read or change variables of one's own. @throws Simbody's stage error unless the System has been
+    realized to Topology in this State */
+    static void ensureTopology(const SimTK::State& state, const char* method);
+
     /** Set the derivatives of one's own z's: forces.updZDot(state)[...]. Stage: Dynamics. */
     virtual void realizeDerivatives(const SimTK::State&, const SimTK::Subsystem& /*forces*/) const {}
 

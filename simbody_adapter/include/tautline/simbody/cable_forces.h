@@ -62,7 +62,7 @@ public:
     /** @param tensionOfTime   of one argument, the time [s]; the force takes it over */
     PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, SimTK::Function* tensionOfTime);
 
-    /** For a force made with a constant tension only; invalidates Dynamics. @throws InvalidInput for a
+    /** For a force made with a constant tension only; invalidates Dynamics. Stage: Topology. @throws InvalidInput for a
     tension below zero or a force made with a function */
     void setTension(SimTK::State& state, SimTK::Real tension) const;
 };

@@ -30,6 +30,8 @@ public:
     double calcDomainMargin(const SurfacePoint& point) const override;
 
 private:
+    double findSize();
+
     SimTK::ContactGeometry m_geometry;
     std::shared_ptr<const HeightMapPatch> m_heightMap;  ///< null unless the geometry is one
     double m_size;

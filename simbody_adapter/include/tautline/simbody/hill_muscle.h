@@ -3,7 +3,8 @@
 
 namespace tautline {
 
-/** What a HillMuscle is made of. Defaults are typical; isometric force, fibre and tendon lengths are not. */
+/** What a HillMuscle is made of. Defaults are typical (see there for their sources); isometric force, fibre and tendon
+ * lengths are not. */
 struct HillMuscleParameters {
     SimTK::Real maxIsometricForce = 1000;     ///< F_0 [N]
     SimTK::Real optimalFibreLength = 0.1;     ///< l_0 [m]
@@ -41,6 +42,14 @@ normalized), pennation alpha and activation a, thickness l sin(alpha) being cons
     f_V = (1 + v)/(1 - v/a_H) for -1 <= v <= 0 (0 below), 1 + (f_max - 1) v/(v + c) above 0, with the
           same slope on both sides of 0.
 
+Where this is from: the model is of Zajac's kind (1989, Crit. Rev. Biomed. Eng. 17:359) with a rigid tendon. f_L and its
+gamma, the form of f_P, its strain and f_max are Thelen's (2003, J. Biomech. Eng. 125:70, Eqns. 3 and 4, young adults);
+k = 4 is that of De Groote et al. (2016, Ann. Biomed. Eng. 44:2922), where Thelen has 5. f_V in shortening is Hill's
+hyperbola (1938) with Thelen's A_f = 0.25 for a_H, which is his curve at full activation; here it does not depend on
+activation, and it goes on in lengthening as the hyperbola of equal slope. The activation obeys a plain first-order law
+with two time constants, 10 ms and 40 ms as is customary (Thelen: 15 ms and 50 ms, and dependent on activation). There
+is no damping of the fibre and no curve of the tendon: this is not OpenSim's Thelen2003Muscle.
+
 A cable shorter than the tendon is slack. One z (the activation); the excitation u is a discrete variable
 of the State or a function. */
 class HillMuscle : public CableForce {
@@ -55,12 +64,12 @@ public:
     own. Before realizeTopology(). */
     void setExcitationFunction(std::function<SimTK::Real(const SimTK::State&)> calcExcitation);
 
-    /** @throws InvalidInput unless in [0, 1], or if there is a function. Invalidates Dynamics. */
+    /** @throws InvalidInput unless in [0, 1], or if there is a function. Stage: Topology; invalidates Dynamics. */
     void setExcitation(SimTK::State& state, SimTK::Real excitation) const;
     /** Stage: Time. */
     SimTK::Real getExcitation(const SimTK::State& state) const;
 
-    /** @throws InvalidInput unless in [0, 1] */
+    /** @throws InvalidInput unless in [0, 1]. Stage: Model. */
     void setActivation(SimTK::State& state, SimTK::Real activation) const;
     /** Stage: Model. */
     SimTK::Real getActivation(const SimTK::State& state) const;

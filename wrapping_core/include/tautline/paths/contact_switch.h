@@ -25,6 +25,9 @@ void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& 
 /** Takes a touched obstacle out of contact; its clearance is watched on the side where the arc began. */
 void liftContact(ObstacleContact& contact);
 
+/** Whether an end is inside an obstacle that is still touched: there is no path over it. */
+bool hasSwallowedEnd(const PathSolution& path);
+
 bool haveSameContacts(const PathSolution& a, const PathSolution& b);
 
 }  // namespace tautline
