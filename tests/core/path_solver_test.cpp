@@ -13,7 +13,6 @@
 #include "tautline/paths/path_verification.h"
 #include "tautline/surfaces/capsule.h"
 #include "tautline/surfaces/elliptic_cylinder.h"
-#include "tautline/surfaces/polynomial_patch.h"
 #include "tautline/surfaces/torus.h"
 
 namespace tautline::testing {
@@ -443,47 +442,6 @@ TEST(PathSolverDegenerate, EllipsoidsAsThinAsOneToTwentyAreSolvedFromAnywhere) {
             scene.point(random.vector(1).cwiseProduct(spread) - ahead);
             EXPECT_EQ(scene.solve().status, PathStatus::Solved) << i << isBroadside;
         }
-}
-
-// ---- Surfaces that end: beyond the edge of a domain there is nothing to touch.
-
-/** A dome over [-1, 1]^2, 0.4 high in the middle, -0.2 at the corners. */
-std::shared_ptr<const Surface> makeDome() {
-    Eigen::MatrixXd p = Eigen::MatrixXd::Zero(3, 3);
-    p(0, 0) = 0.4, p(2, 0) = p(0, 2) = -0.3;
-    return std::make_shared<PolynomialPatch>(PolynomialPatch::makeHeightPatch({Vec2(-1, -1), Vec2(1, 1)}, p));
-}
-
-// Symptom (2026-11-25): left_domain, or end_inside, for lines and ends that are below nothing but the extension.
-TEST(PathSolverDomain, WhatLiesBelowAnExtensionIsClear) {
-    for (const auto& [A, B] :
-         {std::pair(Vec3(-2, 1.3, -0.4), Vec3(2, 1.3, -0.4)), std::pair(Vec3(-2, 4, -3), Vec3(2, 4, -3)),
-          std::pair(Vec3(-5, -5, -9), Vec3(-5, -5, 3))}) {
-        Scene scene;
-        scene.point(A).obstacle(makeDome(), Pose()).point(B);
-        const PathSolution path = scene.solve();
-        EXPECT_EQ(path.status, PathStatus::Solved);
-        EXPECT_FALSE(path.contacts[1].isTouched);
-        EXPECT_NEAR(path.length, (B - A).norm(), 1e-14);
-    }
-}
-
-TEST(PathSolverDomain, AnEndBesideThePatchMayBeLowerThanItsExtension) {
-    Scene scene;
-    scene.point(Vec3(-2, 0, -0.3)).obstacle(makeDome(), Pose()).point(Vec3(2, 0.1, -0.3));
-    const PathSolution path = scene.solve();
-    EXPECT_EQ(path.status, PathStatus::Solved);
-    EXPECT_TRUE(path.contacts[1].isTouched);
-}
-
-TEST(PathSolverDomain, AStringThatCatchesOnTheEdgeHasLeftTheDomain) {
-    Scene scene;
-    scene.point(Vec3(-1.1, 0, -0.3)).obstacle(makeDome(), Pose()).point(Vec3(1.1, 0.1, -0.3));
-    const PathSolution path = scene.solve();
-    EXPECT_EQ(path.status, PathStatus::LeftDomain);
-    expectDrawable(scene, path);
-    const std::string why = explainStatus(scene.problem, scene.pose, path);
-    EXPECT_NE(why.find("domain of"), std::string::npos) << why;
 }
 
 // ---- Poses that are not finite.

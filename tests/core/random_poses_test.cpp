@@ -48,7 +48,7 @@ std::string classify(const PathProblem& problem, const PathPose& pose, const Pat
     if (path.status == PathStatus::Solved) return key;
     for (const char* reason :
          {"is inside", "in the groove", "in two places", "against the order", "still slides", "would lift inside",
-          "pressure vanishes", "leaves the domain", "on the edge of the domain", "too short for the rounding"})
+          "pressure vanishes", "leaves the domain", "too short for the rounding"})
         if (has(reason) && !(has("still slides") && hasMinimumNearby(problem, pose))) return key + ", " + reason;
     return key + ", unexplained: " + why;
 }
@@ -56,7 +56,7 @@ std::string classify(const PathProblem& problem, const PathPose& pose, const Pat
 /** One scene in seven is made of all kinds and forms of surfaces, some of which are slow. */
 RandomScene::Kinds chooseKinds(unsigned seed) {
     if (seed % 8 == 0) return RandomScene::Kinds::All;
-    return seed % 64 == 4 ? RandomScene::Kinds::Aligned : RandomScene::Kinds::Basic;
+    return seed % 128 == 4 ? RandomScene::Kinds::Aligned : RandomScene::Kinds::Basic;
 }
 
 struct Slowest {
@@ -96,14 +96,22 @@ void runScenes(int count, unsigned firstSeed) {
     for (const auto& [outcome, number] : outcomes) std::cout << "  " << outcome << ": " << number << "\n";
 }
 
-TEST(RandomPoses, EndWithAnExplainedStatusAndFiniteNumbers) {
-    runScenes(20000, 1);
+/** Twenty thousand scenes, in parts that can run side by side. */
+class RandomPoses : public ::testing::TestWithParam<int> {
+protected:
+    static constexpr int kScenesPerPart = 5000;
+};
+
+TEST_P(RandomPoses, EndWithAnExplainedStatusAndFiniteNumbers) {
+    runScenes(kScenesPerPart, 1 + static_cast<unsigned>(kScenesPerPart * GetParam()));
 }
 
+INSTANTIATE_TEST_SUITE_P(Parts, RandomPoses, ::testing::Range(0, 4));
+
 // Symptoms until 2026-11-25: tiny bodies on the straight line under whose touch the search strayed, lines along the
-// axis of a capsule, arcs beyond their conjugate points that no search among geodesics left, cusps where surfaces
-// overlap.
-TEST(RandomPoses, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
+// axis of a capsule, the apex of a cone, arcs beyond their conjugate points that no search among geodesics left, cusps
+// where surfaces overlap.
+TEST(RandomScenes, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
     struct Scene {
         unsigned seed;
         RandomScene::Kinds kinds;
@@ -115,7 +123,8 @@ TEST(RandomPoses, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
                                Scene{1076056, kBasic, false}, Scene{1820249, kBasic, false}, Scene{1016328, kAll, true},
                                Scene{1016512, kAll, true}, Scene{1069064, kAll, true}, Scene{1070768, kAll, true},
                                Scene{1085768, kAll, false}, Scene{1584688, kAll, false}, Scene{1667733, kBasic, false},
-                               Scene{1787872, kAll, false}, Scene{1806640, kAll, true}, Scene{1821152, kAll, false}}) {
+                               Scene{1787872, kAll, false}, Scene{1806640, kAll, true}, Scene{1821152, kAll, false},
+                               Scene{1472824, kAll, false}}) {
         SCOPED_TRACE(scene.seed);
         PathProblem problem;
         PathPose pose;

@@ -13,11 +13,13 @@ constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the othe
 
 bool ColdSearch::findPathAlong(const PathProblem& problem, const PathPose& pose, const PathSolution& previous,
                                PathSolution& path) {
+    m_string.beginSearch();
     return findPath(problem, pose, calcPreviousCourse(problem, pose, previous), path);
 }
 
 bool ColdSearch::findPathFromHints(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     StartCourse course = calcHintedCourse(problem, pose);
+    m_string.beginSearch();
     m_spare.contacts.clear();
     path.followsHints = findPath(problem, pose, course, path);
     if (path.followsHints || findPathWithoutPoints(problem, pose, course, path) ||
@@ -49,13 +51,9 @@ bool ColdSearch::findPath(const PathProblem& problem, const PathPose& pose, cons
         double push = kStringPush;
         for (int i = 0; i < kMaxStringPushes && pushOffConjugatePoint(problem, pose, push, path); ++i, push *= 2)
             if (tighten(kPatient)) return true;
-        const StringFault fault = m_string.findFault(problem);
-        const bool isCaught = fault.kind == StringFault::Kind::Edge && path.fault.kind == StringFault::Kind::Edge;
-        path.fault = fault;
-        if (isCaught) return false;  // a finer string will be too
     }
     // A string in which nothing is wrong may still slide, slower than was asked for.
-    if (path.fault.kind == StringFault::Kind::None && tighten(kPatient)) return true;
+    if (m_string.findFault(problem).kind == StringFault::Kind::None && tighten(kPatient)) return true;
     path.fault = m_string.findFault(problem);
     return false;
 }

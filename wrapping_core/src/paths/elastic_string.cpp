@@ -16,7 +16,8 @@ constexpr double kLayingDepthTolerance = 0.02;  ///< crossings shallower than th
 constexpr std::size_t kNeighbours = 4;          ///< obstacles before and after a portion that its mesh allows for
 constexpr double kTouching = 0.01;              ///< height in sizes below which a node counts as resting on a surface
 constexpr int kSweepsPerMesh = 20;
-constexpr long kMaxHeightsPerElement = 500000;  ///< heights over surfaces that one laying may ask for: its time
+constexpr long kMaxHeightsPerElement = 300000;  ///< heights over surfaces that one laying may ask for: its time
+constexpr long kMaxLayings = 2;                 ///< so many times that is what all layings of a search may ask for
 constexpr double kMaxRelaxation = 1.9;
 
 /** Where a line along e that dips deepest below a surface at D is bent to: the foot of D, straight across from it. If
@@ -36,7 +37,8 @@ void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const 
     m_nodes.clear();
     m_isFixed.clear();
     m_holds.clear();
-    m_numHeights = 0;
+    const long fair = kMaxHeightsPerElement * problem.getNumElements();
+    m_maxHeights = std::min(m_numHeights + fair, kMaxLayings * fair);
     std::size_t firstOpen = 0;          // holds whose strand has not met its end yet
     int lastFixed = 0, lastGuided = 0;  // lastGuided: the first hold whose surface the next edge may cross
     for (int e = 0; e < problem.getNumElements(); ++e) {
@@ -75,7 +77,7 @@ void ElasticString::layEdge(const PathProblem& problem, int firstHold, Vec3 A, c
         const Vec3 A_S = X_GS.shiftBack(A), e_S = X_GS.R.transpose() * (B - A) / length;
         const double s = surface.findLowestPoint(A_S, e_S, length);
         const Vec3 D_S = A_S + s * e_S;
-        const double depthThere = surface.calcHeightOverDomain(D_S, N_S) / surface.getSize();
+        const double depthThere = surface.calcHeight(D_S, N_S) / surface.getSize();
         // An end below the surface is no bend: that obstacle is switched off, or the guide lies in another.
         if (!(depthThere < deepest) || s <= 0 || s >= length) continue;
         deepest = depthThere, crossed = i;
@@ -102,8 +104,7 @@ void ElasticString::relax(const PathProblem& problem, double fineness, double to
     if (!(m_extent > 0)) return;
     double relaxation = 1;
     m_isAtRest = false;
-    const long maxHeights = kMaxHeightsPerElement * problem.getNumElements();
-    for (int i = 0; i < maxSweeps && m_numHeights < maxHeights; ++i) {
+    for (int i = 0; i < maxSweeps && m_numHeights < m_maxHeights; ++i) {
         updatePortions(problem);
         if (i % kSweepsPerMesh == 0) {
             remesh(problem, fineness);
@@ -211,8 +212,7 @@ void ElasticString::updatePortions(const PathProblem& problem) {
         if (hold.touches()) after = std::min(after, hold.first);
         const Surface& surface = *problem.getElement(hold.element).surface;
         const auto isInside = [&](int node) {
-            return surface.calcHeightOverDomain(hold.X_GS.shiftBack(m_nodes[node]), N_S) <
-                   kContactTolerance * surface.getSize();
+            return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) < kContactTolerance * surface.getSize();
         };
         hold.isSwitchedOff = isInside(hold.from) || isInside(hold.to);
     }
@@ -247,7 +247,7 @@ void ElasticString::pushOut(const PathProblem& problem, int node, double& room) 
         if (hold.isSwitchedOff) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
         Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
-        const double height = surface.calcHeightOverDomain(p_S, N_S), size = surface.getSize();
+        const double height = surface.calcHeight(p_S, N_S), size = surface.getSize();
         ++m_numHeights;
         room = std::min(room, size + std::max(0.0, height));
         if (height > 0) continue;
@@ -277,20 +277,7 @@ bool ElasticString::restsOn(const PathProblem& problem, const Hold& hold, int no
     return !hold.isSwitchedOff && hold.from < node && node < hold.to && calcHeight(problem, hold, node) < kTouching;
 }
 
-/** True if the string hangs down beyond the edge of a surface on which it rests. */
-bool ElasticString::catchesOnEdge(const PathProblem& problem, const Hold& hold) const {
-    const Surface& surface = *problem.getElement(hold.element).surface;
-    Vec3 N_S;
-    const auto isBeyondEdge = [&](int node) {
-        const Vec3 p_S = hold.X_GS.shiftBack(m_nodes[node]);
-        return surface.calcHeight(p_S, N_S) < 0 && surface.calcHeightOverDomain(p_S, N_S) > 0;
-    };
-    return hold.touches() && (isBeyondEdge(hold.first - 1) || isBeyondEdge(hold.last + 1));
-}
-
 StringFault ElasticString::findFault(const PathProblem& problem) const {
-    for (const Hold& hold : m_holds)
-        if (catchesOnEdge(problem, hold)) return {StringFault::Kind::Edge, hold.element, -1};
     const Hold* before = nullptr;
     for (const Hold& hold : m_holds) {
         if (!hold.touches()) continue;

@@ -11,12 +11,15 @@ namespace tautline {
 
 class ElasticString {
 public:
+    /** What the layings from here on may cost together is counted anew. */
+    void beginSearch() { m_numHeights = 0; }
+
     /** Lays the string from origin to insertion along its guides, and around the surfaces that lie between. */
     void lay(const PathProblem& problem, const PathPose& pose, const StartGuides& guides);
 
     /** Relaxes by projected successive over-relaxation until nodes move less than `tolerance` of their spacing per
-    sweep, or `maxSweeps`, or until this laying has cost what it may. @param fineness   spacing of nodes relative to the
-    default */
+    sweep, or `maxSweeps`, or until this laying, or all layings of a search, have cost what they may. @param fineness
+    spacing of nodes relative to the default */
     void relax(const PathProblem& problem, double fineness, double tolerance, int maxSweeps);
 
     /** Moves the nodes that touch an element, to free a string from a saddle. @param by_G   in ground [m] */
@@ -53,7 +56,6 @@ private:
     double calcRoom(const PathProblem& problem, const Vec3& x, int node) const;
     void pushOut(const PathProblem& problem, int node, double& room);
     double calcHeight(const PathProblem& problem, const Hold& hold, int node) const;
-    bool catchesOnEdge(const PathProblem& problem, const Hold& hold) const;
     bool leavesAndReturns(const PathProblem& problem, const Hold& hold) const;
     bool restsOn(const PathProblem& problem, const Hold& hold, int node) const;
 
@@ -62,9 +64,9 @@ private:
     std::vector<double> m_stiffness;  ///< of edge k between nodes k and k + 1
     std::vector<double> m_room;       ///< per node: size of the nearest obstacle plus distance to it [m]
     std::vector<Hold> m_holds;
-    double m_extent = 0;     ///< length of the string when laid [m]
-    long m_numHeights = 0;   ///< asked for since it was laid
-    bool m_isAtRest = true;  ///< the last relaxation came to its tolerance
+    double m_extent = 0;                      ///< length of the string when laid [m]
+    long m_numHeights = 0, m_maxHeights = 0;  ///< of nodes over surfaces, asked for in this search
+    bool m_isAtRest = true;                   ///< the last relaxation came to its tolerance
 };
 
 }  // namespace tautline

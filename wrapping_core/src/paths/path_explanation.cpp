@@ -53,7 +53,7 @@ std::string describeEndInside(const PathProblem& problem, const PathPose& pose, 
         while (!problem.getElement(before).isPoint() || !pose.hasElement(before)) --before;
         while (!problem.getElement(after).isPoint() || !pose.hasElement(after)) ++after;
         const auto calcHeight = [&](int point) {
-            return surface.calcHeightOverDomain(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
+            return surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
         };
         const bool isBefore = calcHeight(before) <= calcHeight(after);
         return "the point " + quoteName(problem, isBefore ? before : after) + " is inside " + quoteName(problem, e) +
@@ -71,6 +71,17 @@ int findVanishingPressure(const PathProblem& problem, const PathSolution& path) 
         if (problem.getElement(e).isPoint() || !contact.isTouched) continue;
         const double kappaN = std::max(contact.geodesic.P.kappaN, contact.geodesic.Q.kappaN);
         if (kappaN * problem.getElement(e).surface->getSize() > -kVanishing) return e;
+    }
+    return -1;
+}
+
+/** The obstacle whose arc begins or ends outside its surface's domain, or -1. */
+int findOutsideDomain(const PathProblem& problem, const PathSolution& path) {
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const ObstacleContact& contact = path.contacts[e];
+        if (problem.getElement(e).isPoint() || !contact.isTouched) continue;
+        const Surface& surface = *problem.getElement(e).surface;
+        if (!surface.isInDomain(contact.start.point) || !surface.isInDomain(contact.geodesic.endPoint)) return e;
     }
     return -1;
 }
@@ -93,7 +104,7 @@ StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const 
         Vec3 N_S;
         return std::any_of(arc_S.begin(), arc_S.end(), [&](const Vec3& p_S) {
             const Vec3 p_G = pose.X_GE[e] * p_S;
-            return surface.calcHeightOverDomain(pose.X_GE[other].shiftBack(p_G), N_S) < kOverlap * surface.getSize();
+            return surface.calcHeight(pose.X_GE[other].shiftBack(p_G), N_S) < kOverlap * surface.getSize();
         });
     };
     for (int e = 0; e < problem.getNumElements(); ++e) {
@@ -108,8 +119,6 @@ StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const 
 }
 
 std::string describe(const StringFault& fault, const PathProblem& problem) {
-    if (fault.kind == StringFault::Kind::Edge)
-        return "the string catches on the edge of the domain of " + quoteName(problem, fault.element);
     if (fault.kind == StringFault::Kind::Groove)
         return "the string lies in the groove between " + quoteName(problem, fault.element) + " and " +
                quoteName(problem, fault.other) + ", where no smooth path is";
@@ -132,7 +141,10 @@ std::string describeCause(const PathProblem& problem, const PathPose& pose, cons
         if (overlap.kind != StringFault::Kind::None) fault = overlap;
     }
     if (fault.kind != StringFault::Kind::None) return ": " + describe(fault, problem);
-    const int vanishing = path.status == PathStatus::NotConverged ? findVanishingPressure(problem, path) : -1;
+    if (path.status != PathStatus::NotConverged) return "";
+    const int outside = findOutsideDomain(problem, path);
+    if (outside >= 0) return ": the arc on " + quoteName(problem, outside) + " leaves the domain of its surface";
+    const int vanishing = findVanishingPressure(problem, path);
     if (vanishing < 0) return "";
     return ": the pressure vanishes at an end of the arc on " + quoteName(problem, vanishing);
 }
@@ -153,8 +165,6 @@ std::string explainNotMinimum(const PathProblem& problem, const PathPose& pose, 
                               double shortestArc) {
     for (int e = 0; e < problem.getNumElements(); ++e)
         if (path.contacts[e].hasLeftHole) return "the path has left the hole of " + quoteName(problem, e);
-    if (path.status == PathStatus::LeftDomain && path.fault.kind == StringFault::Kind::Edge)
-        return describe(path.fault, problem);
     const PathVerification verification = verifyPath(problem, pose, path, shortestArc);
     if (verification.isMinimum()) return describe(verification, problem);
     const Vec3& place = verification.place_G;

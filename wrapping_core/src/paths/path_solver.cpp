@@ -146,7 +146,7 @@ void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& 
     }
     visitStrandEnds(problem, pose, [&](int point, int e) {
         const Surface& surface = *problem.getElement(e).surface;
-        const double height = surface.calcHeightOverDomain(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
+        const double height = surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
         if (height < kContactTolerance * surface.getSize()) path.contacts[e].isSwitchedOff = true;
     });
 }
@@ -160,10 +160,6 @@ void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool i
         if (!problem.getElement(e).isPoint() && pose.hasElement(e) && path.contacts[e].isSwitchedOff)
             path.status = PathStatus::EndInside;
     if (isFound) return;
-    if (path.fault.kind == StringFault::Kind::Edge) {
-        path.status = PathStatus::LeftDomain;
-        return;
-    }
     if (!isConverged) {
         path.status = PathStatus::NotConverged;
         return;

@@ -30,7 +30,7 @@ bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSeg
     // Near the tangent end the height is rounding of a square: judge beyond a margin only.
     Vec3 N;
     const double s = surface.findLowestPoint(A_S, e_S, line.length);
-    return surface.calcHeightOverDomain(A_S + s * e_S, N) < -kRounding * surface.getSize();
+    return surface.calcHeight(A_S + s * e_S, N) < -kRounding * surface.getSize();
 }
 
 /** The ends tell it for most arcs; along the arc it is asked only of surfaces that have an edge. */

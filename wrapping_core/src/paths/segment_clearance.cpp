@@ -31,19 +31,6 @@ void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double
     clearance.lineCoordinate = s;
 }
 
-/** A line that is below no more than an extension of the surface is clear of it. */
-void ignoreExtension(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
-                     LineClearance& clearance) {
-    if (!(clearance.distance < 0) || !surface.hasEdge()) return;
-    const double s = surface.findLowestPoint(A_S, e_S, length);
-    Vec3 N;
-    const double lowest = surface.calcHeightOverDomain(A_S + s * e_S, N);
-    if (!(lowest < 0))
-        clearance.distance = lowest;
-    else if (!surface.isInDomain(clearance.C))
-        takeHeight(surface, A_S, e_S, s, clearance);
-}
-
 }  // namespace
 
 void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& A_G, const Vec3& B_G,
@@ -61,7 +48,6 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
         takeHeight(surface, A_S, e_S, surface.findLowestPoint(A_S, e_S, length), kept);
     else if (!(kept.lineCoordinate >= 0 && kept.lineCoordinate <= length))
         takeHeight(surface, A_S, e_S, kept.lineCoordinate < 0 ? 0 : length, kept);
-    ignoreExtension(surface, A_S, e_S, length, kept);
     const bool isClear = kept.distance > 0 || !kept.keptN.allFinite();
     if (isClear) kept.keptC = kept.C, kept.keptN = kept.N;
     clearance = kept;

@@ -16,7 +16,7 @@ double calcReturnHeight(const Surface& surface, const Pose& X_GS, const Straight
     const double size = surface.getSize();
     const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.R.transpose() * line.e;
     Vec3 N;
-    const auto height = [&](double s) { return surface.calcHeightOverDomain(A_S + s * e_S, N); };
+    const auto height = [&](double s) { return surface.calcHeight(A_S + s * e_S, N); };
     const int count = std::clamp(static_cast<int>(4 * line.length / size), kLeastSamples, kMostSamples);
     const double spacing = line.length / count;
     double lowest = size, before = height(0), here = height(spacing);

@@ -45,21 +45,11 @@ void Surface::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance&
     }
 }
 
-double Surface::calcHeightOverDomain(const Vec3& p_S, Vec3& N_S) const {
-    const double height = calcHeight(p_S, N_S);
-    if (!(height < 0) || !hasEdge()) return height;
-    return isInDomain(findSurfacePoint(p_S)) ? height : kInfinity;
-}
-
-bool Surface::hasEdge() const {
-    return calcDomainMargin(SurfacePoint()) != kInfinity;
-}
-
 double Surface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
     constexpr int kLeastSamples = 16, kMostSamples = 400, kRefinements = 30;
     const int count = std::clamp(static_cast<int>(4 * length / getSize()), kLeastSamples, kMostSamples);
     Vec3 N;
-    const auto height = [&](double s) { return calcHeightOverDomain(A_S + s * e_S, N); };
+    const auto height = [&](double s) { return calcHeight(A_S + s * e_S, N); };
     const double spacing = length / count;
     double lowest = 0, least = height(0);
     for (int i = 1; i <= count; ++i) {

@@ -9,7 +9,7 @@ namespace tautline {
 enum class PathStatus {
     Solved,        ///< max |eps| <= tolerance and all conditions of PathVerification hold
     NotMinimum,    ///< max |eps| <= tolerance, but the path is not a local minimum (pressure, tangent, conjugate point)
-    LeftDomain,    ///< a contact lies outside its surface's domain, or the string catches on the edge of one
+    LeftDomain,    ///< a contact lies outside its surface's domain
     EndInside,     ///< a fixed point lies deeper than 1e-7 sizes below the surface of an obstacle of its strand (nearer
                    ///< ones count as lying on it); that obstacle is switched off
     NotConverged,  ///< max |eps| > tolerance after the allowed iterations; the best path met is returned
@@ -53,7 +53,6 @@ struct StraightSegment {
 struct StringFault {
     enum class Kind {
         None,
-        Edge,         ///< it catches on the edge of a surface's domain
         Groove,       ///< it lies in the groove where two surfaces meet: a kink
         TwoContacts,  ///< it touches one surface, leaves it, and touches it again
         Sliding,      ///< it has not come to rest: it slides so slowly that it is next to a neutral course

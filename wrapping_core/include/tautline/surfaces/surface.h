@@ -45,10 +45,6 @@ public:
     @param N_S   unit outward direction of steepest ascent at p_S */
     virtual double calcHeight(const Vec3& p_S, Vec3& N_S) const = 0;
 
-    /** Height of a point over what there is of the surface: as calcHeight(), but infinite below an extension beyond the
-    edge of its domain, which iterates may use and which holds no string. */
-    double calcHeightOverDomain(const Vec3& p_S, Vec3& N_S) const;
-
     /** A surface point near p_S: the foot of the steepest descent, the nearest point if p_S is close. */
     virtual SurfacePoint findSurfacePoint(const Vec3& p_S) const = 0;
 
@@ -90,9 +86,6 @@ public:
     /** How far inside the domain on which the surface is defined the point lies: smooth across the domain's edge, there
     zero, negative outside, in a unit of the surface's own choice; infinite where there is no edge. */
     virtual double calcDomainMargin(const SurfacePoint&) const { return kInfinity; }
-
-    /** False if the surface is defined everywhere. */
-    bool hasEdge() const;
 
     /** True where (u, v) or p lies in the domain, edges included. */
     bool isInDomain(const SurfacePoint& point) const { return calcDomainMargin(point) >= 0; }
