@@ -26,8 +26,17 @@ struct Outcome {
     json results;      ///< what was written
 };
 
+/** A folder of the running test's own: tests of this program run side by side. */
+fs::path makeOwnFolder() {
+    const fs::path folder =
+        fs::path(::testing::TempDir()) /
+        (std::string("tautline_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder);
+    return folder;
+}
+
 Outcome runScenes(const fs::path& folder, const std::string& options = "") {
-    const fs::path out = fs::path(::testing::TempDir()) / "tautline_scenes_results.json";
+    const fs::path out = makeOwnFolder() / "results.json";
     fs::remove(out);
     Outcome outcome;
     const std::string command =
@@ -68,8 +77,7 @@ fs::path writeSphereScene(double lengthError) {
            {"p", {0, 0, 0}},
            {"hint", {0.1, 1, 0}}}}},
         {"truth", {{"length", length}, {"contact", {true}}, {"segments", {{{"P", P}, {"Q", Q}, {"arc", arc}}}}}}};
-    const fs::path folder = fs::path(::testing::TempDir()) / "tautline_sphere_scene";
-    fs::create_directories(folder);
+    const fs::path folder = makeOwnFolder();
     std::ofstream(folder / "static.json") << json{{"scenes", {scene}}};
     return folder;
 }

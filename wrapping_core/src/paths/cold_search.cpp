@@ -25,7 +25,7 @@ bool ColdSearch::findPathFromHints(const PathProblem& problem, const PathPose& p
     if (path.followsHints || findPathWithoutPoints(problem, pose, course, path) ||
         findOtherSides(problem, pose, course, path))
         return true;
-    if (m_spare.isEmpty()) return false;
+    if (m_spare.isEmpty()) return findPathWithoutHints(problem, pose, path);
     goBack(m_spare, path);
     return true;
 }
@@ -105,6 +105,29 @@ bool ColdSearch::findPathWithoutPoints(const PathProblem& problem, const PathPos
     if (!hasPoints) return false;
     m_before = path;
     if (findPath(problem, pose, course, path)) return true;
+    goBack(m_before, path);
+    return false;
+}
+
+/** At last: a string that slips off where it was to be wound or threaded has a minimum elsewhere.
+@return false with `path` as it was */
+bool ColdSearch::findPathWithoutHints(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    const int n = problem.getNumElements();
+    StartCourse course{StartGuides(n), PassageRule{std::vector<int>(n, PassageRule::kAny)}};
+    bool hasHints = false;
+    for (int e = 0; e < n; ++e) {
+        const PathElement& element = problem.getElement(e);
+        if (pose.hasElement(e) && element.isPoint()) course.guides[e] = {pose.X_GE[e].p};
+        const StartHint& hint = element.hint;
+        hasHints =
+            hasHints || !(std::holds_alternative<std::monostate>(hint) || std::holds_alternative<PassNear>(hint));
+    }
+    if (!hasHints) return false;
+    m_before = path;
+    m_string.beginSearch();
+    if (findPath(problem, pose, course, path)) return true;
+    // Where nothing is known against the hinted string, what keeps the free one from a minimum is the reason.
+    if (m_before.fault.kind == StringFault::Kind::None) m_before.fault = path.fault;
     goBack(m_before, path);
     return false;
 }

@@ -17,8 +17,9 @@ public:
     bool findPathAlong(const PathProblem& problem, const PathPose& pose, const PathSolution& previous,
                        PathSolution& path);
 
-    /** As the hints of the problem say; where they lead to no minimum, past point hints, on other sides, and past rings
-    that have no hint but would be threaded by the straight line. Says in the path whether it follows the hints. */
+    /** As the hints of the problem say; where they lead to no minimum, past point hints, on other sides, past rings
+    that have no hint but would be threaded by the straight line, and without any hint. Says in the path whether it
+    follows the hints. */
     bool findPathFromHints(const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 private:
@@ -30,6 +31,7 @@ private:
     bool pushOffConjugatePoint(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
     bool findPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartCourse course,
                                PathSolution& path);
+    bool findPathWithoutHints(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool findOtherSides(const PathProblem& problem, const PathPose& pose, StartCourse& course, PathSolution& path);
 
     double m_tolerance;  ///< on max |eps|
