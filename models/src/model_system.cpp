@@ -86,7 +86,7 @@ HillMuscleParameters toHillMuscleParameters(const Muscle& muscle) {
     HillMuscleParameters parameters;
     const auto take = [](double& to, const std::optional<double>& from) { to = from.value_or(to); };
     parameters.maxIsometricForce = muscle.maxIsometricForce;
-    parameters.optimalFibreLength = muscle.optimalFiberLength;
+    parameters.optimalFiberLength = muscle.optimalFiberLength;
     parameters.tendonSlackLength = muscle.tendonSlackLength;
     parameters.pennationAtOptimal = muscle.pennationAngleAtOptimal;
     parameters.maxContractionVelocity = muscle.maxContractionVelocity;

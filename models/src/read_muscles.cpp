@@ -166,7 +166,7 @@ bool readAppliesForce(Element& element) {
 void skipMuscleDetails(Element& element) {
     element.skip({"optimal_force"}, "of a muscle without meaning");
     element.skip({"min_control", "max_control", "default_activation", "default_fiber_length", "minimum_activation",
-                  "fiber_damping", "fibre_damping", "maximum_pennation_angle"},
+                  "fiber_damping", "fiber_damping", "maximum_pennation_angle"},
                  "left to the muscle model");
     element.skip({"ActiveForceLengthCurve", "ForceVelocityCurve", "FiberForceLengthCurve", "TendonForceLengthCurve"},
                  "the muscle model has its own curves: forces will differ");

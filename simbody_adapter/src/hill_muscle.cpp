@@ -49,19 +49,19 @@ public:
     Real getActivation(const State& state) const;
     void setActivation(State& state, Real activation) const;
 
-    /** Of the fibre along the tendon [m]; negative: shorter than the tendon, slack. */
-    Real calcFibreProjection(const State& state) const {
+    /** Of the fiber along the tendon [m]; negative: shorter than the tendon, slack. */
+    Real calcFiberProjection(const State& state) const {
         return getCable().getLength(state) - m_parameters.tendonSlackLength;
     }
-    /** Height of the fibre's parallelogram [m], constant. */
-    Real calcThickness() const { return m_parameters.optimalFibreLength * std::sin(m_parameters.pennationAtOptimal); }
-    Real calcFibreLength(const State& state) const {
-        return std::hypot(std::max(Real(0), calcFibreProjection(state)), calcThickness());
+    /** Height of the fiber's parallelogram [m], constant. */
+    Real calcThickness() const { return m_parameters.optimalFiberLength * std::sin(m_parameters.pennationAtOptimal); }
+    Real calcFiberLength(const State& state) const {
+        return std::hypot(std::max(Real(0), calcFiberProjection(state)), calcThickness());
     }
     Real calcPennation(const State& state) const {
-        return std::atan2(calcThickness(), std::max(Real(0), calcFibreProjection(state)));
+        return std::atan2(calcThickness(), std::max(Real(0), calcFiberProjection(state)));
     }
-    Real calcFibreVelocity(const State& state) const {
+    Real calcFiberVelocity(const State& state) const {
         return getCable().getLengthRate(state) * std::cos(calcPennation(state));
     }
 
@@ -76,10 +76,10 @@ private:
 };
 
 Real HillMuscleLaw::calcTension(const State& state) const {
-    if (!(calcFibreProjection(state) > 0)) return 0;
+    if (!(calcFiberProjection(state) > 0)) return 0;
     const HillMuscleParameters& p = m_parameters;
-    const Real length = calcFibreLength(state) / p.optimalFibreLength;
-    const Real velocity = calcFibreVelocity(state) / (p.maxContractionVelocity * p.optimalFibreLength);
+    const Real length = calcFiberLength(state) / p.optimalFiberLength;
+    const Real velocity = calcFiberVelocity(state) / (p.maxContractionVelocity * p.optimalFiberLength);
     const Real active = getActivation(state) * calcActiveForceLength(p, length) * calcForceVelocity(p, velocity);
     return p.maxIsometricForce * (active + calcPassiveForceLength(p, length)) * std::cos(calcPennation(state));
 }
@@ -131,7 +131,7 @@ const HillMuscleLaw& getHillLaw(const CableForce& force) {
 
 void HillMuscleParameters::validate() const {
     requirePositive(maxIsometricForce, "maxIsometricForce");
-    requirePositive(optimalFibreLength, "optimalFibreLength");
+    requirePositive(optimalFiberLength, "optimalFiberLength");
     require(std::isfinite(tendonSlackLength) && tendonSlackLength >= 0,
             "hill muscle: tendonSlackLength must be finite and not negative, but is ", tendonSlackLength);
     require(pennationAtOptimal >= 0 && pennationAtOptimal < SimTK::Pi / 2,
@@ -149,14 +149,14 @@ void HillMuscleParameters::validate() const {
     requireFraction("hill muscle", defaultActivation, "defaultActivation");
 }
 
-Real calcActiveForceLength(const HillMuscleParameters& parameters, Real fibreLength) {
-    return std::exp(-SimTK::square(fibreLength - 1) / parameters.activeWidth);
+Real calcActiveForceLength(const HillMuscleParameters& parameters, Real fiberLength) {
+    return std::exp(-SimTK::square(fiberLength - 1) / parameters.activeWidth);
 }
 
-Real calcPassiveForceLength(const HillMuscleParameters& parameters, Real fibreLength) {
-    if (!(fibreLength > 1)) return 0;
+Real calcPassiveForceLength(const HillMuscleParameters& parameters, Real fiberLength) {
+    if (!(fiberLength > 1)) return 0;
     const Real k = parameters.passiveShape;
-    return std::expm1(k * (fibreLength - 1) / parameters.passiveStrain) / std::expm1(k);
+    return std::expm1(k * (fiberLength - 1) / parameters.passiveStrain) / std::expm1(k);
 }
 
 Real calcForceVelocity(const HillMuscleParameters& parameters, Real velocity) {
@@ -195,16 +195,16 @@ Real HillMuscle::getActivation(const State& state) const {
     return getHillLaw(*this).getActivation(state);
 }
 
-Real HillMuscle::getFibreLength(const State& state) const {
-    return getHillLaw(*this).calcFibreLength(state);
+Real HillMuscle::getFiberLength(const State& state) const {
+    return getHillLaw(*this).calcFiberLength(state);
 }
 
 Real HillMuscle::getPennation(const State& state) const {
     return getHillLaw(*this).calcPennation(state);
 }
 
-Real HillMuscle::getFibreVelocity(const State& state) const {
-    return getHillLaw(*this).calcFibreVelocity(state);
+Real HillMuscle::getFiberVelocity(const State& state) const {
+    return getHillLaw(*this).calcFiberVelocity(state);
 }
 
 }  // namespace tautline

@@ -155,13 +155,13 @@ TEST(CableStages, ForcesAskedTooEarlyThrowTheStageErrorToo) {
         }
     };
     expectStage(Stage::Position,
-                {[&](const State& s) { string.getStretch(s); }, [&](const State& s) { muscle.getFibreLength(s); },
+                {[&](const State& s) { string.getStretch(s); }, [&](const State& s) { muscle.getFiberLength(s); },
                  [&](const State& s) { muscle.getPennation(s); }});
     expectStage(Stage::Velocity,
                 {[&](const State& s) { string.getTension(s); }, [&](const State& s) { spring.getTension(s); },
                  [&](const State& s) { tension.getTension(s); }, [&](const State& s) { muscle.getTension(s); },
                  [&](const State& s) { string.calcPower(s); }, [&](const State& s) { string.getPowerDissipation(s); },
-                 [&](const State& s) { muscle.getFibreVelocity(s); }});
+                 [&](const State& s) { muscle.getFiberVelocity(s); }});
     expectStage(Stage::Acceleration, {[&](const State& s) { constraint.getTension(s); }});
 }
 

@@ -5,7 +5,7 @@
 namespace tautline::testing {
 namespace {
 
-/** A muscle along x from ground to a slider, tendon 0.2 m, fibre 0.1 m, 1000 N. */
+/** A muscle along x from ground to a slider, tendon 0.2 m, fiber 0.1 m, 1000 N. */
 struct MuscleScene : BareScene {
     explicit MuscleScene(const HillMuscleParameters& parameters) {
         slider = MobilizedBody::Slider(matter.Ground(), Transform(), makeBody(), Transform());
@@ -50,13 +50,13 @@ TEST(HillMuscleTest, PennationKeepsTheThickness) {
     MuscleScene scene(parameters);
     const Real projection = 0.1 * std::cos(SimTK::Pi / 6);
     State optimal = scene.makeState(0.2 + projection, 0.4, 1);
-    EXPECT_NEAR(scene.muscle.getFibreLength(optimal), 0.1, 1e-15);
+    EXPECT_NEAR(scene.muscle.getFiberLength(optimal), 0.1, 1e-15);
     EXPECT_NEAR(scene.muscle.getPennation(optimal), SimTK::Pi / 6, 1e-14);
-    EXPECT_NEAR(scene.muscle.getFibreVelocity(optimal), 0.4 * std::cos(SimTK::Pi / 6), 1e-14);
+    EXPECT_NEAR(scene.muscle.getFiberVelocity(optimal), 0.4 * std::cos(SimTK::Pi / 6), 1e-14);
     EXPECT_NEAR(scene.muscle.getTension(scene.makeState(0.2 + projection, 0, 1)), 1000 * std::cos(SimTK::Pi / 6), 1e-9);
-    // Projection 0.05: fibre sqrt(0.05^2 + 0.05^2), 45 degrees.
+    // Projection 0.05: fiber sqrt(0.05^2 + 0.05^2), 45 degrees.
     State shorter = scene.makeState(0.25, 0, 1);
-    EXPECT_NEAR(scene.muscle.getFibreLength(shorter), 0.05 * std::sqrt(2), 1e-15);
+    EXPECT_NEAR(scene.muscle.getFiberLength(shorter), 0.05 * std::sqrt(2), 1e-15);
     EXPECT_NEAR(scene.muscle.getTension(shorter),
                 1000 * std::exp(-SimTK::square(std::sqrt(0.5) - 1) / 0.45) * std::sqrt(0.5), 1e-9);
 }
@@ -112,7 +112,7 @@ TEST(HillMuscleTest, RefusesBadParametersByNameAndValue) {
     };
     using P = HillMuscleParameters;
     expectRefused(&P::maxIsometricForce, -5, "maxIsometricForce must be positive and finite, but is -5");
-    expectRefused(&P::optimalFibreLength, 0, "optimalFibreLength must be positive and finite, but is 0");
+    expectRefused(&P::optimalFiberLength, 0, "optimalFiberLength must be positive and finite, but is 0");
     expectRefused(&P::tendonSlackLength, -1, "tendonSlackLength must be finite and not negative");
     expectRefused(&P::pennationAtOptimal, 1.6, "pennationAtOptimal must be in [0, pi/2), but is 1.6");
     expectRefused(&P::activationTime, SimTK::NaN, "activationTime");

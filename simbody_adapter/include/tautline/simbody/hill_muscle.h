@@ -3,18 +3,18 @@
 
 namespace tautline {
 
-/** What a HillMuscle is made of. Defaults are typical (see there for their sources); isometric force, fibre and tendon
+/** What a HillMuscle is made of. Defaults are typical (see there for their sources); isometric force, fiber and tendon
  * lengths are not. */
 struct HillMuscleParameters {
     SimTK::Real maxIsometricForce = 1000;     ///< F_0 [N]
-    SimTK::Real optimalFibreLength = 0.1;     ///< l_0 [m]
+    SimTK::Real optimalFiberLength = 0.1;     ///< l_0 [m]
     SimTK::Real tendonSlackLength = 0.2;      ///< l_T [m]: of the rigid tendon
-    SimTK::Real pennationAtOptimal = 0;       ///< of the fibre at its optimal length [rad], in [0, pi/2)
-    SimTK::Real maxContractionVelocity = 10;  ///< in optimal fibre lengths per second
+    SimTK::Real pennationAtOptimal = 0;       ///< of the fiber at its optimal length [rad], in [0, pi/2)
+    SimTK::Real maxContractionVelocity = 10;  ///< in optimal fiber lengths per second
     SimTK::Real activationTime = 0.01;        ///< time constant while excitation > activation [s]
     SimTK::Real deactivationTime = 0.04;      ///< time constant else [s]
     SimTK::Real activeWidth = 0.45;           ///< gamma of the active force-length curve
-    SimTK::Real passiveStrain = 0.6;          ///< fibre strain at which the passive force is F_0
+    SimTK::Real passiveStrain = 0.6;          ///< fiber strain at which the passive force is F_0
     SimTK::Real passiveShape = 4;             ///< k of the exponential passive curve
     SimTK::Real concentricShape = 0.25;       ///< a of Hill's hyperbola, in F_0
     SimTK::Real eccentricForce = 1.4;         ///< limit of the force-velocity curve in lengthening
@@ -26,12 +26,12 @@ struct HillMuscleParameters {
 };
 
 /** Characteristic curves, all dimensionless. */
-SimTK::Real calcActiveForceLength(const HillMuscleParameters& parameters, SimTK::Real fibreLength);
-SimTK::Real calcPassiveForceLength(const HillMuscleParameters& parameters, SimTK::Real fibreLength);
-/** @param velocity   of the fibre in maximal contraction velocities, positive in lengthening */
+SimTK::Real calcActiveForceLength(const HillMuscleParameters& parameters, SimTK::Real fiberLength);
+SimTK::Real calcPassiveForceLength(const HillMuscleParameters& parameters, SimTK::Real fiberLength);
+/** @param velocity   of the fiber in maximal contraction velocities, positive in lengthening */
 SimTK::Real calcForceVelocity(const HillMuscleParameters& parameters, SimTK::Real velocity);
 
-/** A muscle of Hill's type with a rigid tendon along a cable. With fibre length l and velocity v (both
+/** A muscle of Hill's type with a rigid tendon along a cable. With fiber length l and velocity v (both
 normalized), pennation alpha and activation a, thickness l sin(alpha) being constant:
 
     l_0 l cos(alpha) = cable length - l_T,   tension = F_0 (a f_L(l) f_V(v) + f_P(l)) cos(alpha),
@@ -48,7 +48,7 @@ k = 4 is that of De Groote et al. (2016, Ann. Biomed. Eng. 44:2922), where Thele
 hyperbola (1938) with Thelen's A_f = 0.25 for a_H, which is his curve at full activation; here it does not depend on
 activation, and it goes on in lengthening as the hyperbola of equal slope. The activation obeys a plain first-order law
 with two time constants, 10 ms and 40 ms as is customary (Thelen: 15 ms and 50 ms, and dependent on activation). There
-is no damping of the fibre and no curve of the tendon: this is not OpenSim's Thelen2003Muscle.
+is no damping of the fiber and no curve of the tendon: this is not OpenSim's Thelen2003Muscle.
 
 A cable shorter than the tendon is slack. One z (the activation); the excitation u is a discrete variable
 of the State or a function. */
@@ -75,11 +75,11 @@ public:
     SimTK::Real getActivation(const SimTK::State& state) const;
 
     /** [m]. Stage: Position. */
-    SimTK::Real getFibreLength(const SimTK::State& state) const;
+    SimTK::Real getFiberLength(const SimTK::State& state) const;
     /** [rad]. Stage: Position. */
     SimTK::Real getPennation(const SimTK::State& state) const;
     /** [m/s], positive in lengthening. Stage: Velocity. */
-    SimTK::Real getFibreVelocity(const SimTK::State& state) const;
+    SimTK::Real getFiberVelocity(const SimTK::State& state) const;
 };
 
 }  // namespace tautline
