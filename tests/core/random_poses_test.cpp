@@ -118,13 +118,14 @@ TEST(RandomScenes, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
         bool hasMinimum;
     };
     constexpr auto kBasic = RandomScene::Kinds::Basic, kAll = RandomScene::Kinds::All;
-    for (const Scene& scene : {Scene{12573, kBasic, true}, Scene{1026259, kBasic, true}, Scene{1031247, kBasic, true},
-                               Scene{1056053, kBasic, true}, Scene{1069570, kBasic, true}, Scene{1846297, kBasic, true},
-                               Scene{1076056, kBasic, false}, Scene{1820249, kBasic, false}, Scene{1016328, kAll, true},
-                               Scene{1016512, kAll, true}, Scene{1069064, kAll, true}, Scene{1070768, kAll, true},
-                               Scene{1085768, kAll, false}, Scene{1584688, kAll, false}, Scene{1667733, kBasic, false},
-                               Scene{1787872, kAll, false}, Scene{1806640, kAll, true}, Scene{1821152, kAll, false},
-                               Scene{1472824, kAll, false}}) {
+    for (const Scene& scene :
+         {Scene{12573, kBasic, true},    Scene{1026259, kBasic, true},  Scene{1031247, kBasic, true},
+          Scene{1056053, kBasic, true},  Scene{1069570, kBasic, true},  Scene{1846297, kBasic, true},
+          Scene{1076056, kBasic, false}, Scene{1820249, kBasic, false}, Scene{1016328, kAll, true},
+          Scene{1016512, kAll, true},    Scene{1069064, kAll, true},    Scene{1070768, kAll, true},
+          Scene{1085768, kAll, false},   Scene{1584688, kAll, false},   Scene{1667733, kBasic, false},
+          Scene{1787872, kAll, false},   Scene{1806640, kAll, true},    Scene{1821152, kAll, false},
+          Scene{1472824, kAll, false},   Scene{1649520, kAll, true}}) {
         SCOPED_TRACE(scene.seed);
         PathProblem problem;
         PathPose pose;

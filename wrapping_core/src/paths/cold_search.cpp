@@ -1,5 +1,7 @@
 #include "paths/cold_search.h"
 
+#include <cmath>
+
 #include "tautline/paths/path_verification.h"
 
 namespace tautline {
@@ -8,6 +10,18 @@ namespace {
 constexpr double kStringPush = 0.1;  ///< the first one of a string that goes beyond a conjugate point, in sizes
 constexpr int kMaxStringPushes = 6;  ///< each twice the one before
 constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the other side
+
+/** The pose with each element moved a little, in a way of its own. */
+PathPose calcMovedPose(const PathPose& pose) {
+    constexpr double kMove = 1e-9;  // of the distance between the ends
+    PathPose moved = pose;
+    const double extent = (pose.X_GE.back().p - pose.X_GE.front().p).norm();
+    for (std::size_t e = 0; e < moved.X_GE.size(); ++e) {
+        const double phase = 1.0 + static_cast<double>(e);
+        moved.X_GE[e].p += kMove * extent * Vec3(std::sin(phase), std::sin(2 * phase), std::sin(3 * phase));
+    }
+    return moved;
+}
 
 }  // namespace
 
@@ -18,6 +32,17 @@ bool ColdSearch::findPathAlong(const PathProblem& problem, const PathPose& pose,
 }
 
 bool ColdSearch::findPathFromHints(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    if (findHintedPath(problem, pose, path)) return true;
+    if (path.fault.kind != StringFault::Kind::Sliding) return false;
+    // A string that still slides may come to rest in a scene that is moved by next to nothing.
+    m_stuck = path;
+    if (findHintedPath(problem, calcMovedPose(pose), path) && m_search.findMinimum(problem, pose, PassageRule(), path))
+        return true;
+    goBack(m_stuck, path);
+    return false;
+}
+
+bool ColdSearch::findHintedPath(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     StartCourse course = calcHintedCourse(problem, pose);
     m_string.beginSearch();
     m_spare.contacts.clear();

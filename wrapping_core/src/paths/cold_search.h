@@ -23,6 +23,7 @@ public:
     bool findPathFromHints(const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 private:
+    bool findHintedPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool findPath(const PathProblem& problem, const PathPose& pose, const StartCourse& course, PathSolution& path);
     bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
                        int maxSweeps, const PassageRule& rule, PathSolution& path);
@@ -38,6 +39,7 @@ private:
     ContactSearch& m_search;
     ElasticString m_string;
     PathSolution m_spare;   ///< the answer where no ring can be threaded as the straight line does; empty: none met
+    PathSolution m_stuck;   ///< to go back to where a moved scene does not help
     PathSolution m_before;  ///< to go back to where another try fails
 };
 
