@@ -1,15 +1,14 @@
 /** The report program on scenes, run as a user runs it. */
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "support/run_program.h"
 #include "support/shared_data.h"
 
 namespace tautline::testing {
@@ -40,12 +39,8 @@ Outcome runScenes(const fs::path& folder, const std::string& options = "") {
     fs::remove(out);
     Outcome outcome;
     const std::string command =
-        TAUTLINE_SCENES_PROGRAM " " + folder.string() + " --out " + out.string() + " " + options + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    char part[4096];
-    while (std::fgets(part, sizeof part, pipe)) outcome.text += part;
-    const int status = pclose(pipe);
-    outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        TAUTLINE_SCENES_PROGRAM " " + folder.string() + " --out " + out.string() + " " + options;
+    outcome.exitCode = runProgram(command, outcome.text);
     std::ifstream stream(out);
     if (stream) outcome.results = json::parse(stream, nullptr, false);
     return outcome;

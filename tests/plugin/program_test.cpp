@@ -1,14 +1,13 @@
 /** The tautline program as a user runs it. */
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "storage_file.h"
+#include "support/run_program.h"
 #include "support/shared_data.h"
 
 namespace tautline {
@@ -21,11 +20,7 @@ struct Outcome {
 
 Outcome runProgram(const std::string& arguments) {
     Outcome outcome;
-    FILE* pipe = popen((TAUTLINE_PROGRAM " " + arguments + " 2>&1").c_str(), "r");
-    char part[4096];
-    while (std::fgets(part, sizeof part, pipe)) outcome.text += part;
-    const int status = pclose(pipe);
-    outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    outcome.exitCode = testing::runProgram(TAUTLINE_PROGRAM " " + arguments, outcome.text);
     return outcome;
 }
 
@@ -164,13 +159,10 @@ TEST(Program, DrawsCurvesWithGnuplot) {
 
 TEST(Program, SaysThatGnuplotIsMissingBeforeItSimulates) {
     const std::filesystem::path folder = makeFolder("no_gnuplot");
-    Outcome outcome;
+    std::string text;
     const std::string command = "PATH=/nowhere " TAUTLINE_PROGRAM " run " + kElbow + " --plot --out " + folder.string();
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    char part[4096];
-    while (std::fgets(part, sizeof part, pipe)) outcome.text += part;
-    EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 1);
-    EXPECT_NE(outcome.text.find("--plot needs gnuplot"), std::string::npos) << outcome.text;
+    EXPECT_EQ(testing::runProgram(command, text), 1);
+    EXPECT_NE(text.find("--plot needs gnuplot"), std::string::npos) << text;
     EXPECT_FALSE(std::filesystem::exists(folder));
 }
 

@@ -11,6 +11,11 @@ constexpr double kStringPush = 0.1;  ///< the first one of a string that goes be
 constexpr int kMaxStringPushes = 6;  ///< each twice the one before
 constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the other side
 
+/** Nothing but a point at most: what leads to no minimum there may on another side. */
+bool leavesSideOpen(const StartHint& hint) {
+    return std::holds_alternative<std::monostate>(hint) || std::holds_alternative<PassNear>(hint);
+}
+
 /** The pose with each element moved a little, in a way of its own. */
 PathPose calcMovedPose(const PathPose& pose) {
     constexpr double kMove = 1e-9;  // of the distance between the ends
@@ -143,9 +148,7 @@ bool ColdSearch::findPathWithoutHints(const PathProblem& problem, const PathPose
     for (int e = 0; e < n; ++e) {
         const PathElement& element = problem.getElement(e);
         if (pose.hasElement(e) && element.isPoint()) course.guides[e] = {pose.X_GE[e].p};
-        const StartHint& hint = element.hint;
-        hasHints =
-            hasHints || !(std::holds_alternative<std::monostate>(hint) || std::holds_alternative<PassNear>(hint));
+        hasHints = hasHints || !leavesSideOpen(element.hint);
     }
     if (!hasHints) return false;
     m_before = path;
@@ -166,7 +169,7 @@ bool ColdSearch::findOtherSides(const PathProblem& problem, const PathPose& pose
     for (int e = 0; e < problem.getNumElements() && tries < kMaxOtherSides; ++e) {
         const PathElement& element = problem.getElement(e);
         if (element.isPoint() || !pose.hasElement(e) || !m_before.contacts[e].isTouched ||
-            !(std::holds_alternative<std::monostate>(element.hint) || std::holds_alternative<PassNear>(element.hint)))
+            !leavesSideOpen(element.hint))
             continue;
         const std::vector<Vec3> hinted = course.guides[e];
         course.guides[e] = {calcOppositeGuide(problem, pose, m_before, e)};

@@ -102,8 +102,7 @@ void ContactSearch::leaveSaddle(const PathProblem& problem, const PathPose& pose
     if (verification.condition != PathVerification::Condition::Unstable) return;
     const Surface& surface = *problem.getElement(verification.element).surface;
     ObstacleContact& contact = path.contacts[verification.element];
-    contact.start =
-        calcCorrectedStart(surface, contact.start, contact.geodesic.P, Vec4(0, kSaddlePush * surface.getSize(), 0, 0));
+    contact.start = calcPushedStart(surface, contact.start, contact.geodesic.P, kSaddlePush);
     m_minimizer.minimize(problem, pose, path);
 }
 

@@ -66,14 +66,6 @@ bool switchContacts(PathSolver& solver, const PathProblem& problem, const PathPo
     return false;
 }
 
-/** Moves the arc of an obstacle sideways, by a part of the surface's size. */
-void pushArc(const PathProblem& problem, int e, double push, PathSolution& path) {
-    const Surface& surface = *problem.getElement(e).surface;
-    ObstacleContact& contact = path.contacts[e];
-    contact.start =
-        calcCorrectedStart(surface, contact.start, contact.geodesic.P, Vec4(0, push * surface.getSize(), 0, 0));
-}
-
 bool isMinimum(const PathSolution& path) {
     return path.status == PathStatus::Solved || path.status == PathStatus::EndInside;
 }
@@ -94,10 +86,13 @@ either side. @return the obstacle at which the path was a saddle, if it is now a
 int leaveSaddle(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PathStability stability = calcPathStability(problem, pose, path);
     if (holds(stability)) return -1;
+    const int e = stability.element;
     for (const double push : {0.0, 0.3, -0.3, 1.0, -1.0}) {
         PathSolution pushed = path;
-        if (push != 0) pushArc(problem, stability.element, push, pushed);
-        if (goOn(solver, problem, pose, pushed, path)) return stability.element;
+        ObstacleContact& contact = pushed.contacts[e];
+        if (push != 0)
+            contact.start = calcPushedStart(*problem.getElement(e).surface, contact.start, contact.geodesic.P, push);
+        if (goOn(solver, problem, pose, pushed, path)) return e;
     }
     return -1;
 }

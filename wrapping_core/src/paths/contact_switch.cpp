@@ -11,9 +11,13 @@ constexpr double kMostHalf = 2;  ///< half of a new arc where the surface hardly
 
 }  // namespace
 
-double calcContactWitness(const PathProblem& problem, const PathSolution& path, int element) {
-    // The smallest sign that there is: an event finder that starts from exactly zero misses what follows.
+double makeWitness(double value) {
     constexpr double kTiny = std::numeric_limits<double>::min();
+    if (!std::isfinite(value)) return 1;
+    return value == 0 ? kTiny : value;
+}
+
+double calcContactWitness(const PathProblem& problem, const PathSolution& path, int element) {
     const ObstacleContact& contact = path.contacts[element];
     // An end inside leaves no path over the obstacle: it must be off, and then nothing is watched.
     if (contact.isSwitchedOff) return contact.isTouched ? -1 : 1;
@@ -21,8 +25,7 @@ double calcContactWitness(const PathProblem& problem, const PathSolution& path, 
     if (contact.hasLeftHole) return -1;
     const double witness = contact.isTouched ? contact.start.length / problem.getElement(element).surface->getSize()
                                              : contact.clearance.distance * contact.clearance.scale - kContactTolerance;
-    if (!std::isfinite(witness)) return 1;
-    return witness == 0 ? kTiny : witness;
+    return makeWitness(witness);
 }
 
 void switchContact(const PathProblem& problem, const PathPose& pose, int element, PathSolution& path) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "paths/cold_search.h"
+#include "paths/obstacle_walk.h"
 #include "paths/path_cusps.h"
 #include "tautline/error.h"
 #include "tautline/paths/contact_switch.h"
@@ -156,9 +157,9 @@ void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool i
     const bool isConverged = path.pathError <= m_options.pathErrorTolerance;
     updatePassages(problem, pose, isConverged, path);
     path.status = PathStatus::Solved;
-    for (int e = 0; e < problem.getNumElements(); ++e)
-        if (!problem.getElement(e).isPoint() && pose.hasElement(e) && path.contacts[e].isSwitchedOff)
-            path.status = PathStatus::EndInside;
+    visitObstacles(problem, pose, [&](int e) {
+        if (path.contacts[e].isSwitchedOff) path.status = PathStatus::EndInside;
+    });
     if (isFound) return;
     if (!isConverged) {
         path.status = PathStatus::NotConverged;

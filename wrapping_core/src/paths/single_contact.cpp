@@ -1,10 +1,10 @@
 #include "tautline/paths/single_contact.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
+#include "surfaces/refine_lowest.h"
 #include "tautline/geodesics/geodesic_events.h"
+#include "tautline/paths/contact_switch.h"
 
 namespace tautline {
 namespace {
@@ -22,15 +22,8 @@ double calcReturnHeight(const Surface& surface, const Pose& X_GS, const Straight
     double lowest = size, before = height(0), here = height(spacing);
     for (int i = 1; i < count; ++i) {
         const double after = height((i + 1) * spacing);
-        if (here < before && here <= after && here < lowest + spacing) {
-            double a = (i - 1) * spacing, b = (i + 1) * spacing;
-            for (int k = 0; k < kRefinements; ++k) {
-                const double left = a + (b - a) / 3, right = b - (b - a) / 3;
-                const bool isLeftLower = height(left) < height(right);
-                (isLeftLower ? b : a) = isLeftLower ? right : left;
-            }
-            lowest = std::min(lowest, height(0.5 * (a + b)));
-        }
+        if (here < before && here <= after && here < lowest + spacing)
+            lowest = std::min(lowest, height(refineLowest(height, (i - 1) * spacing, (i + 1) * spacing, kRefinements)));
         before = here, here = after;
     }
     return lowest / size;
@@ -40,7 +33,6 @@ double calcReturnHeight(const Surface& surface, const Pose& X_GS, const Straight
 
 double calcSingleContactWitness(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
                                 int element) {
-    constexpr double kTiny = std::numeric_limits<double>::min();  // as calcContactWitness()
     const Surface& surface = *problem.getElement(element).surface;
     const ObstacleContact& contact = path.contacts[element];
     if (!contact.isTouched || surface.isConvex()) return 1;
@@ -48,8 +40,7 @@ double calcSingleContactWitness(const PathProblem& problem, const PathPose& pose
     for (const StraightSegment& line : path.segments)
         if (line.fromElement == element || line.toElement == element)
             witness = std::min(witness, calcReturnHeight(surface, pose.X_GE[element], line));
-    if (!std::isfinite(witness)) return 1;
-    return witness == 0 ? kTiny : witness;
+    return makeWitness(witness);
 }
 
 }  // namespace tautline

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geodesics/arc_walker.h"
+#include "surfaces/refine_lowest.h"
 #include "tautline/error.h"
 
 namespace tautline {
@@ -56,13 +57,8 @@ double Surface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length)
         const double h = height(i * spacing);
         if (h < least) least = h, lowest = i * spacing;
     }
-    // Ternary search between the neighbours: the height is convex there for all but contrived surfaces.
-    double a = std::max(0.0, lowest - spacing), b = std::min(length, lowest + spacing);
-    for (int i = 0; i < kRefinements; ++i) {
-        const double left = a + (b - a) / 3, right = b - (b - a) / 3;
-        (height(left) < height(right) ? b : a) = height(left) < height(right) ? right : left;
-    }
-    return 0.5 * (a + b);
+    // Between the neighbours the height is convex for all but contrived surfaces.
+    return refineLowest(height, std::max(0.0, lowest - spacing), std::min(length, lowest + spacing), kRefinements);
 }
 
 int Surface::countHoleCrossings(const Vec3&, const Vec3&) const {

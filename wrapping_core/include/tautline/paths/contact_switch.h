@@ -8,6 +8,10 @@ namespace tautline {
 verifying and flagging it. Tiny, since a penetration h at touchdown makes the rate jump with h. */
 inline constexpr double kContactTolerance = -1e-10;
 
+/** A value as a witness: never 0, since an event finder that starts from exactly zero misses what follows, and 1 where
+it is not finite. */
+double makeWitness(double value);
+
 /** What tells that one obstacle's contact must change: dimensionless, positive while the contact may stay, smooth
 through zero while contacts are kept, never 0 and never NaN. Touched: arc length over size (thesis Sec. 6.3).
 Lifted: clearance above kContactTolerance. Where nothing is smooth: 1 for an obstacle that is switched off, -1 for one
