@@ -150,33 +150,33 @@ const SimTK::SimbodyMatterSubsystem& Cable::getMatterSubsystem() const {
 }
 
 int Cable::getNumElements() const {
-    return get().getNumElements();
+    return get().getElements().size();
 }
 
 bool Cable::isObstacle(CableElementIndex element) const {
-    return get().getElement(element).surface != nullptr;
+    return get().getElements().get(element).surface != nullptr;
 }
 
 const std::string& Cable::getElementName(CableElementIndex element) const {
-    return get().getElement(element).name;
+    return get().getElements().get(element).name;
 }
 
 CableElementIndex Cable::findElement(const std::string& name) const {
     for (CableElementIndex e(0); e < getNumElements(); ++e)
-        if (get().getElement(e).name == name) return e;
+        if (get().getElements().get(e).name == name) return e;
     throw InvalidInput("cable '" + getName() + "': no element '" + name + "'");
 }
 
 SimTK::MobilizedBodyIndex Cable::getElementBody(CableElementIndex element) const {
-    return get().getElement(element).body;
+    return get().getElements().get(element).body;
 }
 
 SimTK::Transform Cable::getElementFrame(CableElementIndex element) const {
-    return get().getElement(element).X_BE;
+    return get().getElements().get(element).X_BE;
 }
 
 bool Cable::hasMovingPoints() const {
-    return get().hasMovingPoints();
+    return get().getElements().hasMovingPoints();
 }
 
 const PathProblem& Cable::getPathProblem() const {
@@ -184,7 +184,7 @@ const PathProblem& Cable::getPathProblem() const {
 }
 
 std::shared_ptr<const Surface> Cable::getSurface(CableElementIndex element) const {
-    return get().getElement(element).surface;
+    return get().getElements().get(element).surface;
 }
 
 void Cable::disable(State& state) const {
@@ -251,30 +251,30 @@ const PathPose& Cable::getPathPose(const State& state) const {
 }
 
 bool Cable::isActive(const State& state, CableElementIndex element) const {
-    get().getElement(element);
+    get().getElements().get(element);
     get().getPath(state, "Cable::isActive()");
     return get().getPose(state).hasElement(element);
 }
 
 SimTK::Vec3 Cable::calcStation(const State& state, CableElementIndex element) const {
-    const CableElement& found = get().getElement(element);
+    const CableElement& found = get().getElements().get(element);
     get().getSubsystemImpl().ensureStage(state, SimTK::Stage::Position, "Cable::calcStation()");
     return found.moving ? found.moving->calcStation(state) : found.X_BE.p();
 }
 
 bool Cable::isTouched(const State& state, CableElementIndex obstacle) const {
-    get().getObstacle(obstacle);
+    get().getElements().getObstacle(obstacle);
     return get().getPath(state, "Cable::isTouched()").contacts[obstacle].isTouched;
 }
 
 Real Cable::getArcLength(const State& state, CableElementIndex obstacle) const {
-    get().getObstacle(obstacle);
+    get().getElements().getObstacle(obstacle);
     const ObstacleContact& contact = get().getPath(state, "Cable::getArcLength()").contacts[obstacle];
     return contact.isTouched ? contact.geodesic.length : 0;
 }
 
 bool Cable::getContactPoints(const State& state, CableElementIndex obstacle, SimTK::Vec3& P_G, SimTK::Vec3& Q_G) const {
-    get().getObstacle(obstacle);
+    get().getElements().getObstacle(obstacle);
     const PathSolution& path = get().getPath(state, "Cable::getContactPoints()");
     const ObstacleContact& contact = path.contacts[obstacle];
     if (!contact.isTouched) return false;
@@ -286,7 +286,7 @@ bool Cable::getContactPoints(const State& state, CableElementIndex obstacle, Sim
 
 bool Cable::getContactFrames(const State& state, CableElementIndex obstacle, SimTK::Transform& X_GP,
                              SimTK::Transform& X_GQ) const {
-    get().getObstacle(obstacle);
+    get().getElements().getObstacle(obstacle);
     const ObstacleContact& contact = get().getPath(state, "Cable::getContactFrames()").contacts[obstacle];
     if (!contact.isTouched) return false;
     const Pose& X_GS = get().getPose(state).X_GE[obstacle];
@@ -300,13 +300,13 @@ bool Cable::getContactFrames(const State& state, CableElementIndex obstacle, Sim
 }
 
 Real Cable::getClearance(const State& state, CableElementIndex obstacle) const {
-    get().getObstacle(obstacle);
+    get().getElements().getObstacle(obstacle);
     const ObstacleContact& contact = get().getPath(state, "Cable::getClearance()").contacts[obstacle];
     return contact.isTouched ? SimTK::NaN : contact.clearance.distance;
 }
 
 Real Cable::getWitness(const State& state, CableElementIndex obstacle) const {
-    get().getObstacle(obstacle);
+    get().getElements().getObstacle(obstacle);
     return get().calcWitness(state, obstacle);
 }
 
@@ -335,7 +335,7 @@ void Cable::calcUnitBodyForces(const State& state, SimTK::Vector_<SpatialVec>& u
 }
 
 SpatialVec Cable::calcUnitElementForce(const State& state, CableElementIndex element) const {
-    get().getElement(element);
+    get().getElements().get(element);
     return toSpatialVec(get().getElementForces(state, "Cable::calcUnitElementForce()")[element]);
 }
 

@@ -44,52 +44,37 @@ void makeEmptyPath(int numElements, PathSolution& path) {
 }  // namespace
 
 CableImpl::CableImpl(CableSubsystemImpl& cables, CableIndex index, std::string name)
-    : m_cables(cables), m_index(index), m_name(std::move(name)) {
-    if (m_name.empty()) m_name = "cable" + std::to_string(index);
-}
+    : m_cables(cables),
+      m_index(index),
+      m_name(name.empty() ? "cable" + std::to_string(index) : std::move(name)),
+      m_elements(cables, m_name) {}
 
 void CableImpl::setEnds(CableElement origin, CableElement insertion) {
-    m_elements = {std::move(origin), std::move(insertion)};
+    m_elements.setEnds(std::move(origin), std::move(insertion));
 }
 
 CableElementIndex CableImpl::insertElement(CableElement element) {
-    const CableElementIndex index(getNumElements() - 1);
-    if (element.name.empty()) element.name = (element.surface ? "obstacle" : "point") + std::to_string(index);
-    for (const CableElement& other : m_elements)
-        require(other.name != element.name, "cable '", m_name, "': there is an element '", element.name, "' already");
-    if (element.surface) checkHint(element);
     const bool isObstacle = element.surface != nullptr, isConditional = element.isActive != nullptr;
-    m_elements.insert(m_elements.end() - 1, std::move(element));
+    const CableElementIndex index = m_elements.insert(std::move(element));
     m_cables.invalidateSubsystemTopologyCache();
+    SimTK::System& system = m_cables.updSystem();
     if (isObstacle && !std::exchange(m_isStabilityWatched, true))
-        m_cables.updSystem().addEventHandler(new StabilityEventHandler(*this));
-    if (isObstacle) m_cables.updSystem().addEventHandler(new ContactEventHandler(*this, index));
+        system.addEventHandler(new StabilityEventHandler(*this));
+    if (isObstacle) system.addEventHandler(new ContactEventHandler(*this, index));
     if (isObstacle && !m_elements[index].surface->isConvex())
-        m_cables.updSystem().addEventHandler(new SplitEventHandler(*this, index));
-    if (isConditional) m_cables.updSystem().addEventHandler(new ConditionEventHandler(*this, index));
+        system.addEventHandler(new SplitEventHandler(*this, index));
+    if (isConditional) system.addEventHandler(new ConditionEventHandler(*this, index));
     return index;
 }
 
 void CableImpl::setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station) {
-    (isOrigin ? m_elements.front() : m_elements.back()).moving = std::move(station);
+    m_elements.setMovingEnd(isOrigin, std::move(station));
     m_cables.invalidateSubsystemTopologyCache();
 }
 
 void CableImpl::setHint(CableElementIndex obstacle, const StartHint& hint) {
-    CableElement changed = getObstacle(obstacle);
-    changed.hint = hint;
-    checkHint(changed);
-    m_elements[obstacle] = changed;
+    m_elements.setHint(obstacle, hint);
     m_cables.invalidateSubsystemTopologyCache();
-}
-
-/** @throws InvalidInput as the core would when the path problem is built */
-void CableImpl::checkHint(const CableElement& obstacle) const {
-    try {
-        PathProblem().addObstacle(obstacle.name, obstacle.surface, obstacle.hint);
-    } catch (const InvalidInput& error) {
-        throw InvalidInput("cable '" + m_name + "': " + error.what());
-    }
 }
 
 void CableImpl::setOptions(const PathSolverOptions& options) {
@@ -103,36 +88,8 @@ void CableImpl::setDisabledByDefault(bool isDisabled) {
     m_cables.invalidateSubsystemTopologyCache();
 }
 
-bool CableImpl::hasMovingPoints() const {
-    return std::any_of(m_elements.begin(), m_elements.end(),
-                       [](const CableElement& element) { return element.moving || element.isActive; });
-}
-
-const CableElement& CableImpl::getElement(CableElementIndex element) const {
-    require(element.isValid() && element < getNumElements(), "cable '", m_name, "': no element ",
-            static_cast<int>(element), " of ", getNumElements());
-    return m_elements[element];
-}
-
-const CableElement& CableImpl::getObstacle(CableElementIndex element) const {
-    const CableElement& found = getElement(element);
-    require(found.surface != nullptr, "cable '", m_name, "': element '", found.name, "' is a point, not an obstacle");
-    return found;
-}
-
-const SimTK::MobilizedBody& CableImpl::getBody(const CableElement& element) const {
-    return m_cables.getMatter().getMobilizedBody(element.body);
-}
-
 void CableImpl::realizeTopology(State& state) {
-    m_problem = PathProblem();
-    for (const CableElement& element : m_elements) {
-        if (!element.surface) {
-            m_problem.addPoint(element.name);
-            continue;
-        }
-        m_problem.addObstacle(element.name, element.surface, element.hint);
-    }
+    m_problem = m_elements.makeProblem();
     m_state.allocate(m_cables, state, m_defaultMode, m_options);
 }
 
@@ -140,7 +97,7 @@ void CableImpl::realizePosition(const State& state) const {
     const CableMode& mode = m_state.getMode(state);
     if (mode.isDisabled) return;
     CablePath& path = m_state.updPath(state);
-    calcPose(state, path.pose);
+    m_elements.calcPose(state, path.pose);
     solve(m_state.getStart(state), mode.keepsContacts, m_state.updWorkspace(state), path);
     calcUnitForces(path.solution, path.pose, path.forces);
     m_state.markPathRealized(state);
@@ -165,7 +122,7 @@ Real CableImpl::getLengthRate(const State& state) const {
     const PathSolution& path = getPath(state, "Cable::getLengthRate()");
     if (!m_state.isRateRealized(state)) {
         CableWorkspace& workspace = m_state.updWorkspace(state);
-        calcVelocities(state, workspace.velocities);
+        m_elements.calcVelocities(state, workspace.velocities);
         m_state.setRate(state, calcLengthRate(path, getPose(state), workspace.velocities));
     }
     return m_state.getRate(state);
@@ -174,7 +131,8 @@ Real CableImpl::getLengthRate(const State& state) const {
 Real CableImpl::getLengthAccelerationBias(const State& state) const {
     const char* const method = "Cable::getLengthAccelerationBias()";
     m_cables.ensureStage(state, Stage::Velocity, method);
-    SimTK_ERRCHK1_ALWAYS(!hasMovingPoints(), method, "cable '%s' has moving or conditional points", m_name.c_str());
+    SimTK_ERRCHK1_ALWAYS(!m_elements.hasMovingPoints(), method, "cable '%s' has moving or conditional points",
+                         m_name.c_str());
     getPath(state, method);
     if (!m_state.isBiasRealized(state))
         m_state.setBias(state, calcLengthAccelerationBias(state, m_state.getPath(state)));
@@ -185,15 +143,14 @@ Real CableImpl::getLengthAccelerationBias(const State& state) const {
 E that turning alone gives it. On the verge of instability, where the forces' rates are without bound, that alone. */
 Real CableImpl::calcLengthAccelerationBias(const State& state, const CablePath& path) const {
     CableWorkspace& workspace = m_state.updWorkspace(state);
-    calcVelocities(state, workspace.velocities);
+    m_elements.calcVelocities(state, workspace.velocities);
     workspace.sensitivity.setPath(m_problem, path.pose, path.solution);
     workspace.sensitivity.calcVariation(workspace.velocities, workspace.variation);
     Real bias = 0;
-    for (std::size_t e = 0; e < m_elements.size(); ++e) {
+    for (int e = 0; e < m_elements.size(); ++e) {
         const SpatialForce &F = path.forces[e], &FRate = workspace.variation.forceRate[e];
         const SpatialVelocity& V = workspace.velocities[e];
-        const SimTK::Vec3 p_BE_G = getBody(m_elements[e]).getBodyRotation(state) * m_elements[e].X_BE.p();
-        const Vec3 centripetal = V.w.cross(V.w.cross(toEigen(p_BE_G)));
+        const Vec3 centripetal = m_elements.calcCentripetalAcceleration(state, e, V.w);
         bias -= FRate.force.dot(V.v) + FRate.moment.dot(V.w) + F.force.dot(centripetal);
     }
     return bias;
@@ -244,55 +201,17 @@ const std::vector<SpatialForce>& CableImpl::getElementForces(const State& state,
 void CableImpl::addBodyForces(const State& state, Real tension, SimTK::Vector_<SpatialVec>& bodyForces,
                               const char* method) const {
     const std::vector<SpatialForce>& F_GE = getElementForces(state, method);
-    const PathPose& pose = getPose(state);
-    for (int e = 0; e < getNumElements(); ++e) {
-        const CableElement& element = m_elements[e];
-        const SpatialVec F = tension * toSpatialVec(F_GE[e]);
-        const SimTK::Vec3 p_BE_G = toSimTK(pose.X_GE[e].p) - getBody(element).getBodyOriginLocation(state);
-        bodyForces[element.body] += SpatialVec(F[0] + p_BE_G % F[1], F[1]);
-    }
+    m_elements.addBodyForces(state, getPose(state), F_GE, tension, bodyForces);
 }
 
 void CableImpl::addMobilityForces(const State& state, Real tension, SimTK::Vector& mobilityForces,
                                   const char* method) const {
-    const auto isMoving = [](const CableElement& element) { return element.moving != nullptr; };
-    if (std::none_of(m_elements.begin(), m_elements.end(), isMoving)) return;
-    const std::vector<SpatialForce>& F_GE = getElementForces(state, method);
-    for (int e = 0; e < getNumElements(); ++e) {
-        const CableElement& element = m_elements[e];
-        if (!element.moving) continue;
-        const SimTK::Vec3 force_B = ~getBody(element).getBodyRotation(state) * toSimTK(F_GE[e].force);
-        element.moving->addMobilityForces(state, tension * force_B, mobilityForces);
-    }
-}
-
-void CableImpl::calcPose(const State& state, PathPose& pose) const {
-    pose.X_GE.resize(m_elements.size());
-    pose.isActive.assign(m_elements.size(), 1);
-    for (std::size_t e = 0; e < m_elements.size(); ++e) {
-        const CableElement& element = m_elements[e];
-        const SimTK::Transform& X_GB = getBody(element).getBodyTransform(state);
-        pose.X_GE[e] =
-            element.moving ? Pose(toEigen(X_GB * element.moving->calcStation(state))) : toPose(X_GB * element.X_BE);
-        if (element.isActive) pose.isActive[e] = element.isActive(state);
-    }
-}
-
-void CableImpl::calcVelocities(const State& state, std::vector<SpatialVelocity>& V_GE) const {
-    V_GE.resize(m_elements.size());
-    for (std::size_t e = 0; e < m_elements.size(); ++e) {
-        const SimTK::MobilizedBody& body = getBody(m_elements[e]);
-        const std::shared_ptr<const MovingStation>& moving = m_elements[e].moving;
-        const SimTK::Vec3 station_B = moving ? moving->calcStation(state) : m_elements[e].X_BE.p();
-        SimTK::Vec3 v_G = body.findStationVelocityInGround(state, station_B);
-        if (moving) v_G += body.getBodyRotation(state) * moving->calcVelocity(state);
-        V_GE[e] = {toEigen(body.getBodyAngularVelocity(state)), toEigen(v_G)};
-    }
+    m_elements.addMobilityForces(state, getElementForces(state, method), tension, mobilityForces);
 }
 
 void CableImpl::solve(const CablePath& start, bool keepsContacts, CableWorkspace& workspace, CablePath& found) const {
     PathSolution& path = found.solution;
-    if (!found.pose.isFinite()) return makeEmptyPath(getNumElements(), path);
+    if (!found.pose.isFinite()) return makeEmptyPath(m_elements.size(), path);
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     if (keepsContacts) {
@@ -301,13 +220,7 @@ void CableImpl::solve(const CablePath& start, bool keepsContacts, CableWorkspace
         path.contacts.clear();
         workspace.solver.solve(m_problem, found.pose, path);
     }
-    const std::chrono::nanoseconds elapsed = Clock::now() - begin;
-    m_counters.nanoseconds += elapsed.count();
-    ++m_counters.solves;
-    if (path.wasCold) ++m_counters.coldSolves;
-    if (path.status == PathStatus::NotConverged) ++m_counters.failures;
-    m_counters.iterations += path.iterations;
-    m_counters.shots += path.shots;
+    m_counters.countSolve(path, Clock::now() - begin);
 }
 
 /** Where Newton's method comes to no path in one step, or to another one, a saddle, the path is followed there. */
@@ -355,11 +268,11 @@ void CableImpl::handleContactEvent(State& state) const {
     const PathSolution before = getPath(state, "ContactEventHandler::handleEvent()");
     const PathPose pose = getPose(state);
     CableWorkspace& workspace = m_state.updWorkspace(state);
-    calcVelocities(state, workspace.velocities);
+    m_elements.calcVelocities(state, workspace.velocities);
     const PathSolution start = m_state.getStart(state).solution;
     PathSolution after = before;
     if (before.status == PathStatus::NotConverged) after.contacts = start.contacts;
-    for (int e = 0; e < getNumElements(); ++e) {
+    for (int e = 0; e < m_elements.size(); ++e) {
         after.contacts[e].isSwitchedOff = before.contacts[e].isSwitchedOff;
         // What the step began from knows how the cable went through rings.
         if (!start.contacts[e].isSwitchedOff) after.contacts[e].passage = start.contacts[e].passage;
@@ -381,17 +294,17 @@ void CableImpl::report(const State& state, const PathSolution& start, const Path
             m_listener({state.getTime(), m_index, e, kind, before.length, after.length, rateBefore, rateAfter});
     };
     if (slippedAt >= 0) {
-        ++m_counters.slips;
+        m_counters.countSlip();
         tell(CableElementIndex(slippedAt), Kind::Slipped);
     }
-    for (CableElementIndex e(0); e < getNumElements(); ++e) {
+    for (CableElementIndex e(0); e < m_elements.size(); ++e) {
         if (!m_elements[e].surface) continue;
         if (after.contacts[e].hasLeftHole && !start.contacts[e].hasLeftHole) {
-            ++m_counters.holesLeft;
+            m_counters.countHoleLeft();
             tell(e, Kind::LeftHole);
         }
         if (before.contacts[e].isTouched == after.contacts[e].isTouched) continue;
-        ++m_counters.events;
+        m_counters.countContactEvent();
         tell(e, after.contacts[e].isTouched ? Kind::Made : Kind::Lost);
     }
 }
@@ -399,7 +312,7 @@ void CableImpl::report(const State& state, const PathSolution& start, const Path
 PathStatus CableImpl::calcStatus(const State& state) const {
     const PathSolution& path = getPath(state, "Cable::calcStatus()");
     if (path.status != PathStatus::Solved || !m_state.getMode(state).keepsContacts) return path.status;
-    for (int e = 0; e < getNumElements(); ++e)
+    for (int e = 0; e < m_elements.size(); ++e)
         if (m_elements[e].surface && path.contacts[e].isSwitchedOff) return PathStatus::EndInside;
     for (const ObstacleContact& contact : path.contacts)
         if (contact.hasLeftHole) return PathStatus::NotMinimum;
@@ -424,38 +337,8 @@ std::string CableImpl::explainStatus(const State& state) const {
 }
 
 void CableImpl::countStep(const State& state) const {
-    ++m_counters.steps;
-    if (calcStatus(state) != PathStatus::Solved) ++m_counters.degradedSteps;
-    const Real error = getPath(state, "CableSubsystem::countStep()").pathError;
-    double largest = m_counters.largestPathError;
-    while (!(error <= largest) && !std::isnan(largest))
-        if (m_counters.largestPathError.compare_exchange_weak(largest, error)) break;
-}
-
-CableStatistics CableImpl::getStatistics() const {
-    CableStatistics result;
-    result.numSolves = m_counters.solves;
-    result.numColdSolves = m_counters.coldSolves;
-    result.numFailures = m_counters.failures;
-    result.numIterations = m_counters.iterations;
-    result.numShots = m_counters.shots;
-    result.numContactEvents = m_counters.events;
-    result.numSteps = m_counters.steps;
-    result.numDegradedSteps = m_counters.degradedSteps;
-    result.largestPathError = m_counters.largestPathError;
-    result.numSlips = m_counters.slips;
-    result.numHolesLeft = m_counters.holesLeft;
-    result.seconds = 1e-9 * static_cast<double>(m_counters.nanoseconds);
-    return result;
-}
-
-void CableImpl::resetStatistics() const {
-    for (std::atomic<long>* counter :
-         {&m_counters.solves, &m_counters.coldSolves, &m_counters.failures, &m_counters.iterations, &m_counters.shots,
-          &m_counters.events, &m_counters.slips, &m_counters.holesLeft, &m_counters.nanoseconds, &m_counters.steps,
-          &m_counters.degradedSteps})
-        *counter = 0;
-    m_counters.largestPathError = 0;
+    const double pathError = getPath(state, "CableSubsystem::countStep()").pathError;
+    m_counters.countStep(calcStatus(state) != PathStatus::Solved, pathError);
 }
 
 }  // namespace tautline

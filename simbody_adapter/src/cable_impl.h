@@ -1,24 +1,11 @@
 #pragma once
 #include <Simbody.h>
 
-#include <atomic>
-
+#include "cable_counters.h"
+#include "cable_elements.h"
 #include "cable_path_state.h"
-#include "tautline/paths/path_verification.h"
-#include "tautline/simbody/cable.h"
 
 namespace tautline {
-
-/** One element of a cable and where it is fixed. */
-struct CableElement {
-    std::string name;
-    SimTK::MobilizedBodyIndex body;
-    SimTK::Transform X_BE;
-    std::shared_ptr<const Surface> surface;  ///< null: a point
-    StartHint hint;
-    std::shared_ptr<const MovingStation> moving = nullptr;        ///< of a point; null: it is fixed at X_BE
-    std::function<bool(const SimTK::State&)> isActive = nullptr;  ///< of a point; null: always
-};
 
 /** What stands behind a Cable handle. */
 class CableImpl {
@@ -39,11 +26,7 @@ public:
     const CableSubsystemImpl& getSubsystemImpl() const { return m_cables; }
     const PathSolverOptions& getOptions() const { return m_options; }
     bool isDisabledByDefault() const { return m_defaultMode.isDisabled; }
-    bool hasMovingPoints() const;
-    int getNumElements() const { return static_cast<int>(m_elements.size()); }
-    const CableElement& getElement(CableElementIndex element) const;
-    const CableElement& getObstacle(CableElementIndex element) const;
-    const SimTK::MobilizedBody& getBody(const CableElement& element) const;
+    const CableElements& getElements() const { return m_elements; }
 
     void realizeTopology(SimTK::State& state);
     void realizePosition(const SimTK::State& state) const;
@@ -67,7 +50,6 @@ public:
     const std::vector<SpatialForce>& getElementForces(const SimTK::State& state, const char* method) const;
     void addBodyForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,
                        const char* method) const;
-
     void addMobilityForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector& mobilityForces,
                            const char* method) const;
 
@@ -83,14 +65,11 @@ public:
     std::string explainStatus(const SimTK::State& state) const;
     void countStep(const SimTK::State& state) const;
 
-    CableStatistics getStatistics() const;
-    void resetStatistics() const;
+    CableStatistics getStatistics() const { return m_counters.getStatistics(); }
+    void resetStatistics() const { m_counters.reset(); }
 
 private:
-    void checkHint(const CableElement& obstacle) const;
-    void calcPose(const SimTK::State& state, PathPose& pose) const;
     SimTK::Real calcLengthAccelerationBias(const SimTK::State& state, const CablePath& path) const;
-    void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
     void solve(const CablePath& start, bool keepsContacts, CableWorkspace& workspace, CablePath& path) const;
     void solveKept(const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
     void setStart(SimTK::State& state, const PathSolution& path, const PathPose& pose) const;
@@ -100,7 +79,7 @@ private:
     CableSubsystemImpl& m_cables;
     CableIndex m_index;
     std::string m_name;
-    std::vector<CableElement> m_elements;
+    CableElements m_elements;
     PathSolverOptions m_options;
     CableMode m_defaultMode;
     bool m_isStabilityWatched = false;  ///< one event handler for all obstacles
@@ -108,14 +87,7 @@ private:
 
     PathProblem m_problem;  ///< built at Topology
     CablePathState m_state;
-
-    /** Counted by all threads that realize States. */
-    struct Counters {
-        std::atomic<long> solves{0}, coldSolves{0}, failures{0}, iterations{0}, shots{0}, events{0}, slips{0},
-            holesLeft{0}, nanoseconds{0}, steps{0}, degradedSteps{0};
-        std::atomic<double> largestPathError{0};
-    };
-    mutable Counters m_counters;
+    mutable CableCounters m_counters;
 };
 
 }  // namespace tautline

@@ -43,7 +43,7 @@ ConditionEventHandler::ConditionEventHandler(const CableImpl& cable, CableElemen
 
 /** A jump from -1 to 1: the event finder halves its interval. */
 SimTK::Real ConditionEventHandler::getValue(const SimTK::State& state) const {
-    return m_cable.isDisabled(state) || m_cable.getElement(m_element).isActive(state) ? 1 : -1;
+    return m_cable.isDisabled(state) || m_cable.getElements().get(m_element).isActive(state) ? 1 : -1;
 }
 
 }  // namespace tautline

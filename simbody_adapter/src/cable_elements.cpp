@@ -1,0 +1,133 @@
+#include "cable_elements.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "cable_subsystem_impl.h"
+#include "tautline/error.h"
+#include "tautline/simbody/conversions.h"
+
+namespace tautline {
+
+using SimTK::Real;
+using SimTK::SpatialVec;
+using SimTK::State;
+
+void CableElements::setEnds(CableElement origin, CableElement insertion) {
+    m_elements = {std::move(origin), std::move(insertion)};
+}
+
+void CableElements::setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station) {
+    (isOrigin ? m_elements.front() : m_elements.back()).moving = std::move(station);
+}
+
+CableElementIndex CableElements::insert(CableElement element) {
+    const CableElementIndex index(size() - 1);
+    if (element.name.empty()) element.name = (element.surface ? "obstacle" : "point") + std::to_string(index);
+    for (const CableElement& other : m_elements)
+        require(other.name != element.name, "cable '", m_cableName, "': there is an element '", element.name,
+                "' already");
+    if (element.surface) checkHint(element);
+    m_elements.insert(m_elements.end() - 1, std::move(element));
+    return index;
+}
+
+void CableElements::setHint(CableElementIndex obstacle, const StartHint& hint) {
+    CableElement changed = getObstacle(obstacle);
+    changed.hint = hint;
+    checkHint(changed);
+    m_elements[obstacle] = changed;
+}
+
+/** @throws InvalidInput as the core would when the path problem is built */
+void CableElements::checkHint(const CableElement& obstacle) const {
+    try {
+        PathProblem().addObstacle(obstacle.name, obstacle.surface, obstacle.hint);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput("cable '" + m_cableName + "': " + error.what());
+    }
+}
+
+const CableElement& CableElements::get(CableElementIndex element) const {
+    require(element.isValid() && element < size(), "cable '", m_cableName, "': no element ", static_cast<int>(element),
+            " of ", size());
+    return m_elements[element];
+}
+
+const CableElement& CableElements::getObstacle(CableElementIndex element) const {
+    const CableElement& found = get(element);
+    require(found.surface != nullptr, "cable '", m_cableName, "': element '", found.name,
+            "' is a point, not an obstacle");
+    return found;
+}
+
+bool CableElements::hasMovingPoints() const {
+    return std::any_of(begin(), end(), [](const CableElement& e) { return e.moving || e.isActive; });
+}
+
+PathProblem CableElements::makeProblem() const {
+    PathProblem problem;
+    for (const CableElement& element : m_elements) {
+        if (element.surface)
+            problem.addObstacle(element.name, element.surface, element.hint);
+        else
+            problem.addPoint(element.name);
+    }
+    return problem;
+}
+
+const SimTK::MobilizedBody& CableElements::getBody(const CableElement& element) const {
+    return m_cables.getMatter().getMobilizedBody(element.body);
+}
+
+void CableElements::calcPose(const State& state, PathPose& pose) const {
+    pose.X_GE.resize(m_elements.size());
+    pose.isActive.assign(m_elements.size(), 1);
+    for (std::size_t e = 0; e < m_elements.size(); ++e) {
+        const CableElement& element = m_elements[e];
+        const SimTK::Transform& X_GB = getBody(element).getBodyTransform(state);
+        pose.X_GE[e] =
+            element.moving ? Pose(toEigen(X_GB * element.moving->calcStation(state))) : toPose(X_GB * element.X_BE);
+        if (element.isActive) pose.isActive[e] = element.isActive(state);
+    }
+}
+
+void CableElements::calcVelocities(const State& state, std::vector<SpatialVelocity>& V_GE) const {
+    V_GE.resize(m_elements.size());
+    for (std::size_t e = 0; e < m_elements.size(); ++e) {
+        const SimTK::MobilizedBody& body = getBody(m_elements[e]);
+        const std::shared_ptr<const MovingStation>& moving = m_elements[e].moving;
+        const SimTK::Vec3 station_B = moving ? moving->calcStation(state) : m_elements[e].X_BE.p();
+        SimTK::Vec3 v_G = body.findStationVelocityInGround(state, station_B);
+        if (moving) v_G += body.getBodyRotation(state) * moving->calcVelocity(state);
+        V_GE[e] = {toEigen(body.getBodyAngularVelocity(state)), toEigen(v_G)};
+    }
+}
+
+Vec3 CableElements::calcCentripetalAcceleration(const State& state, int element, const Vec3& w) const {
+    const CableElement& at = m_elements[element];
+    const Vec3 p_BE_G = toEigen(getBody(at).getBodyRotation(state) * at.X_BE.p());
+    return w.cross(w.cross(p_BE_G));
+}
+
+void CableElements::addBodyForces(const State& state, const PathPose& pose, const std::vector<SpatialForce>& F_GE,
+                                  Real tension, SimTK::Vector_<SpatialVec>& bodyForces) const {
+    for (std::size_t e = 0; e < m_elements.size(); ++e) {
+        const CableElement& element = m_elements[e];
+        const SpatialVec F = tension * toSpatialVec(F_GE[e]);
+        const SimTK::Vec3 p_BE_G = toSimTK(pose.X_GE[e].p) - getBody(element).getBodyOriginLocation(state);
+        bodyForces[element.body] += SpatialVec(F[0] + p_BE_G % F[1], F[1]);
+    }
+}
+
+void CableElements::addMobilityForces(const State& state, const std::vector<SpatialForce>& F_GE, Real tension,
+                                      SimTK::Vector& mobilityForces) const {
+    for (std::size_t e = 0; e < m_elements.size(); ++e) {
+        const CableElement& element = m_elements[e];
+        if (!element.moving) continue;
+        const SimTK::Vec3 force_B = ~getBody(element).getBodyRotation(state) * toSimTK(F_GE[e].force);
+        element.moving->addMobilityForces(state, tension * force_B, mobilityForces);
+    }
+}
+
+}  // namespace tautline
