@@ -32,10 +32,11 @@ std::string toFileName(std::string name) {
     return name;
 }
 
-/** A curve of a storage file: column counted from 1. */
+/** A curve of a storage file: column and color counted from 1; an obstacle has the same color in every panel. */
 struct Curve {
     std::string file, title;
     std::size_t column = 0;
+    int color = 1;
 };
 
 struct Panel {
@@ -51,10 +52,11 @@ std::vector<std::string> findObstacles(const Cable& cable) {
     return names;
 }
 
-void addCurve(const StorageTable& table, const std::string& label, const std::string& title, Panel& panel) {
+void addCurve(const StorageTable& table, const std::string& label, const std::string& title, int color, Panel& panel) {
     const auto at = std::find(table.labels.begin(), table.labels.end(), label);
     if (at == table.labels.end()) return;
-    panel.curves.push_back({table.name + ".sto", title, static_cast<std::size_t>(at - table.labels.begin()) + 1});
+    panel.curves.push_back(
+        {table.name + ".sto", title, static_cast<std::size_t>(at - table.labels.begin()) + 1, color});
 }
 
 std::vector<Panel> makePanels(const PathView& path, const SimulationResult& result) {
@@ -64,13 +66,14 @@ std::vector<Panel> makePanels(const PathView& path, const SimulationResult& resu
     };
     const auto addOfPath = [&](const std::string& quantity, const std::string& unit, bool isLogarithmic) {
         Panel panel{quantity == "path_error" ? "path error" : quantity, unit, isLogarithmic, {}};
-        addCurve(result.paths, path.path + "|" + quantity, "", panel);
+        addCurve(result.paths, path.path + "|" + quantity, "", 1, panel);
         addPanel(panel);
     };
     const auto addOfObstacles = [&](const std::string& quantity, const std::string& title, const std::string& unit) {
         Panel panel{title, unit, false, {}};
+        int color = 0;
         for (const std::string& name : findObstacles(path.cable))
-            addCurve(result.clearances, path.path + "|" + quantity + "." + name, name, panel);
+            addCurve(result.clearances, path.path + "|" + quantity + "." + name, name, ++color, panel);
         if (panel.curves.size() == 1) panel.title += " of " + std::exchange(panel.curves[0].title, "");
         addPanel(panel);
     };
@@ -104,7 +107,8 @@ void writePanel(const Panel& panel, std::ostream& script) {
         const Curve& curve = panel.curves[i];
         // Storage files: seven lines of header and labels.
         script << (i ? ", \\\n     " : "") << quote(curve.file) << " skip 7 using 1:" << curve.column
-               << " with lines lw 1.5 " << (curve.title.empty() ? "notitle" : "title " + quote(curve.title));
+               << " with lines lw 1.5 lc " << curve.color << " "
+               << (curve.title.empty() ? "notitle" : "title " + quote(curve.title));
     }
     script << "\n";
 }
