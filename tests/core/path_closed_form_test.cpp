@@ -28,7 +28,7 @@ TEST(PathSolverClosedForm, CylinderWithObliqueTangents) {
                 if (arc < 0.05) continue;  // the straight line is free on this side
                 ++wrapped;
                 const double middle = from + sense * turn / 2;
-                Scene scene;
+                PathScene scene;
                 scene.point(Vec3(O.x(), O.y(), 0));
                 scene.obstacle(std::make_shared<Cylinder>(r), Pose(),
                                Vec3(r * std::cos(middle), r * std::sin(middle), dz / 2));
@@ -48,7 +48,7 @@ TEST(PathSolverClosedForm, SphereGreatCircle) {
     const double r = 0.5;
     for (double y : {0.49, 0.4, 0.1, 1e-3}) {  // height of the line over the centre, from grazing to the middle
         const double planar = calcPlanarLength({{Vec2(-1, y)}, {Vec2(0, 0), r, -1}, {Vec2(1.5, y)}});
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(-1, y, 0))
             .obstacle(std::make_shared<Sphere>(r), Pose(), Vec3(0, r, 0.1))
             .point(Vec3(1.5, y, 0));
@@ -60,7 +60,7 @@ TEST(PathSolverClosedForm, SphereGreatCircle) {
 
 TEST(PathSolverClosedForm, LiftedOffPathIsTheStraightLine) {
     for (double y : {0.4 + 1e-9, 0.5, 3.0}) {
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(-1, y, 0)).obstacle(std::make_shared<Cylinder>(0.4), Pose(), Vec3(0, 0.4, 0));
         scene.point(Vec3(1, y, 0.5));
         const PathSolution path = scene.solve();
@@ -78,7 +78,7 @@ TEST(PathSolverClosedForm, BeltsOverTwoCylinders) {
                                                {Vec2(-1, 0), 0.4, -1},
                                                {Vec2(1, 0.1), 0.7, second},
                                                {Vec2(2.5, second == 1 ? 1.0 : -1.0)}};
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(-2, -0.5, 0)).obstacle(std::make_shared<Cylinder>(0.4), Pose(Vec3(-1, 0, 0)), Vec3(0, 0.4, 0));
         scene.obstacle(std::make_shared<Cylinder>(0.7), Pose(Vec3(1, 0.1, 0)), Vec3(0, -0.7 * second, 0));
         scene.point(Vec3(2.5, second == 1 ? 1.0 : -1.0, 0));
@@ -92,7 +92,7 @@ TEST(PathSolverClosedForm, UnitCircleOfThesisTab2_1) {
     // O on the circle at 8/9 pi, I at distance 2: the string leaves at pi/3. O is lifted by a hair, since a point
     // on the surface has no direction to it.
     const double phi = 8.0 / 9 * kPi, lift = 1e-7;
-    Scene scene;
+    PathScene scene;
     scene.point((1 + lift) * Vec3(std::cos(phi), std::sin(phi), 0));
     scene.obstacle(std::make_shared<Cylinder>(1), Pose(), Vec3(0, 1, 0)).point(Vec3(2, 0, 0));
     const PathSolution path = scene.solve();
@@ -104,7 +104,7 @@ TEST(PathSolverClosedForm, UnitCircleOfThesisTab2_1) {
 }
 
 TEST(PathSolverClosedForm, PlanarChainOfFourSurfaces) {
-    const Scene scene = makePlanarChain();
+    const PathScene scene = makePlanarChain();
     const PathSolution path = scene.solve();
     ASSERT_EQ(path.status, PathStatus::Solved);
     EXPECT_NEAR(path.length, 15 + kPi / 2 * (1 + 1 + 1.5 + 2), 1e-10);
@@ -123,7 +123,7 @@ TEST(PathSolverClosedForm, PlanarChainOfFourSurfaces) {
 
 TEST(PathSolverClosedForm, ViaPoints) {  // osim-format.md, "Analytic cases"
     const Vec3 points[] = {{0, 0, 0}, {0, 1, 0}, {0, 1, 2}, {-4, 1, 2}, {-4, 0, 0}};
-    Scene scene;
+    PathScene scene;
     for (const Vec3& p : points) scene.point(p);
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::Solved);
@@ -141,7 +141,7 @@ TEST(PathSolverClosedForm, ViaPoints) {  // osim-format.md, "Analytic cases"
 TEST(PathSolverClosedForm, MomentArmOfACylinderOnAPin) {  // osim-format.md, "Analytic cases"
     const double r = 0.2, reach = 0.5;
     const auto solveAt = [&](double q, double& arm) {
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(-reach, 0, 0)).obstacle(std::make_shared<Cylinder>(r), Pose(), Vec3(0, r, 0));
         scene.point(Vec3(reach * std::cos(q), reach * std::sin(q), 0));
         const PathSolution path = scene.solve();

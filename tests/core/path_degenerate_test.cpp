@@ -33,7 +33,7 @@ TEST(PathSolverDegenerate, EveryShapeFromEveryAwkwardPlace) {
             for (const std::optional<Vec3>& hint :
                  {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 1, 0)), std::optional<Vec3>(Vec3(0, 0, 0))}) {
                 SCOPED_TRACE(surface->getDescription() + " " + line.name + (hint ? " with hint" : ""));
-                Scene scene;
+                PathScene scene;
                 scene.point(line.O).obstacle(surface, Pose(), hint).point(line.I);
                 expectDrawable(scene, scene.solve());
             }
@@ -57,7 +57,7 @@ TEST(PathSolverDegenerate, ChordsThroughAxesAndCentresAreSolvedInBothForms) {
                 for (const bool alongY : {false, true}) {
                     const Vec3 side = alongY ? Vec3(0, a, slant) : Vec3(a, 0, slant);
                     SCOPED_TRACE(surface->getDescription() + " " + std::to_string(a) + " " + std::to_string(slant));
-                    Scene scene;
+                    PathScene scene;
                     scene.point(-side).obstacle(surface, Pose()).point(1.25 * side);
                     const PathSolution path = scene.solve();
                     EXPECT_EQ(path.status, PathStatus::Solved);
@@ -71,7 +71,7 @@ TEST(PathSolverDegenerate, EllipsoidsAsThinAsOneToTwentyAreSolvedFromAnywhere) {
     for (int i = 0; i < 40; ++i)
         for (const bool isBroadside : {true, false}) {
             const Vec3 ahead = isBroadside ? Vec3(0, 0, 2) : Vec3(2, 0, 0), spread(0.3, 0.3, isBroadside ? 0.3 : 0.015);
-            Scene scene;
+            PathScene scene;
             scene.point(ahead + random.vector(1).cwiseProduct(spread));
             scene.obstacle(std::make_shared<Ellipsoid>(Vec3(1, 0.8, 0.05)), Pose());
             scene.point(random.vector(1).cwiseProduct(spread) - ahead);
@@ -81,7 +81,7 @@ TEST(PathSolverDegenerate, EllipsoidsAsThinAsOneToTwentyAreSolvedFromAnywhere) {
 
 // Symptom (2026-11-22): segments of length 0 with e = 0 where both ends lie on the surface itself.
 TEST(PathSolverDegenerate, EndsOnTheSurfaceLeaveUnitDirections) {
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(-0.5, 0, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose()).point(Vec3(0.5, 0, 0));
     expectDrawable(scene, scene.solve());
 }
@@ -90,14 +90,14 @@ TEST(PathSolverDegenerate, EndsOnTheSurfaceLeaveUnitDirections) {
 TEST(PathSolverDegenerate, PathFromAPointOnTheSurfaceLeavesItAlongAGeodesic) {
     // Half around the cylinder, and a quarter and a bit to a tangent line; heights of 1e-7 radii change 1e-10 of
     // length.
-    Scene around;
+    PathScene around;
     around.point(Vec3(-0.5, 0, 0)).obstacle(std::make_shared<Cylinder>(0.5), Pose(), Vec3(0, 0.5, 0));
     around.point(Vec3(0.5, 0, 0));
     const PathSolution half = around.solve();
     EXPECT_EQ(half.status, PathStatus::Solved);
     EXPECT_NEAR(half.length, kPi / 2, 1e-9);
     for (const std::optional<Vec3>& hint : {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 0.5, 0))}) {
-        Scene away;
+        PathScene away;
         away.point(Vec3(-0.5, 0, 0)).obstacle(std::make_shared<Cylinder>(0.5), Pose(), hint).point(Vec3(3, 0.3, 0));
         const PathSolution path = away.solve();
         const double distance = std::hypot(3, 0.3);
@@ -108,7 +108,7 @@ TEST(PathSolverDegenerate, PathFromAPointOnTheSurfaceLeavesItAlongAGeodesic) {
 }
 
 TEST(PathSolverDegenerate, LineAlongTheAxisOfATorusRunsThroughItsHole) {
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(0, 0, -3)).obstacle(std::make_shared<Torus>(1, 0.25), Pose()).point(Vec3(0, 0, 3));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::Solved);
@@ -117,7 +117,7 @@ TEST(PathSolverDegenerate, LineAlongTheAxisOfATorusRunsThroughItsHole) {
 
 TEST(PathSolverDegenerate, LineThatJustTouchesHasItsOwnLength) {
     for (double y : {0.5, 0.5 - 1e-12, 0.5 + 1e-12, 0.5 - 1e-9}) {
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(-1, y, 0))
             .obstacle(std::make_shared<Sphere>(0.5), Pose(), Vec3(0, 0.5, 0))
             .point(Vec3(2, y, 0));

@@ -58,19 +58,19 @@ TEST(PathSolverRefuses, ProblemsThatAreNoPath) {
         problem.validate();
     });
     expectRefused("2 poses for 3 elements", [&] {
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(0, 0, 0)).obstacle(sphere, Pose()).point(Vec3(3, 0, 0));
         scene.pose.X_GE.pop_back();
         scene.solve();
     });
     expectRefused("isActive has 1 entries for 3 elements", [&] {
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(0, 0, 0)).obstacle(sphere, Pose()).point(Vec3(3, 0, 0));
         scene.pose.isActive = {1};
         scene.solve();
     });
     expectRefused("needs a path that was solved before", [&] {
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(0, 0, 0)).point(Vec3(3, 0, 0));
         PathSolution empty;
         PathSolver().solveKeepingContacts(scene.problem, scene.pose, empty);

@@ -39,7 +39,7 @@ TEST(PathSolver, ConvergesQuadratically) {
 TEST(PathSolver, KeptContactStaysSmoothPastLiftOff) {
     // A cylinder sinks away below the line y = 0; the closed form holds on with arcs below zero.
     const double r = 0.4;
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(-1, 0, 0)).obstacle(std::make_shared<Cylinder>(r), Pose(Vec3(0, -0.3, 0)), Vec3(0, r, 0));
     scene.point(Vec3(1.5, 0, 0));
     PathSolver solver;
@@ -59,7 +59,7 @@ TEST(PathSolver, KeptContactStaysSmoothPastLiftOff) {
 }
 
 TEST(PathSolver, SwitchedOffElementIsPassedOver) {
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(0, 0, 0)).point(Vec3(1, 1, 0)).obstacle(std::make_shared<Sphere>(0.2), Pose(Vec3(1.5, 0.1, 0)));
     scene.point(Vec3(2, 0, 0));
     const double withAll = scene.solve().length;
@@ -73,7 +73,7 @@ TEST(PathSolver, SwitchedOffElementIsPassedOver) {
 }
 
 TEST(PathSolver, AnswersDoNotDependOnWhatWasSolvedBefore) {
-    const Scene chain = makePlanarChain();
+    const PathScene chain = makePlanarChain();
     const WeaveScene weave(WeaveScene::Kind::Ellipsoids, 7);
     PathPose pose;
     weave.calcPose(0.3, pose);

@@ -13,7 +13,7 @@ namespace tautline::testing {
 namespace {
 
 TEST(PathSolverStatus, EndInsideSwitchesTheObstacleOff) {
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(0.1, 0, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose(), Vec3(0, 0.5, 0)).point(Vec3(2, 0, 0));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::EndInside);
@@ -23,12 +23,12 @@ TEST(PathSolverStatus, EndInsideSwitchesTheObstacleOff) {
 }
 
 TEST(PathSolverStatus, NotConvergedReturnsTheBestPathMet) {
-    const Scene scene = makePlanarChain();
+    const PathScene scene = makePlanarChain();
     PathSolverOptions options;
     options.maxIterations = 1;
     options.allowsColdStart = false;
     PathSolution path = scene.solve();
-    Scene moved = scene;
+    PathScene moved = scene;
     for (int e = 1; e < 5; ++e) moved.pose.X_GE[e].p += Vec3(0.1, -0.05, 0.1 * e);
     PathSolver(options).solve(moved.problem, moved.pose, path);
     EXPECT_EQ(path.status, PathStatus::NotConverged);
@@ -39,7 +39,7 @@ TEST(PathSolverStatus, NotConvergedReturnsTheBestPathMet) {
 
 /** Over the sphere the long way: more than half a turn, so that r vanishes inside the arc. */
 TEST(PathSolverStatus, ArcBeyondItsConjugatePointIsNotMinimum) {
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(-0.3, -2, 0)).obstacle(std::make_shared<Sphere>(1), Pose()).point(Vec3(0.3, -2, 0));
     PathSolution path;
     path.contacts.resize(3);
@@ -61,7 +61,7 @@ TEST(PathSolverStatus, ArcBeyondItsConjugatePointIsNotMinimum) {
 // unstable balance only (the way under the centre has 6.273). The arc alone has no conjugate point; the second
 // variation over arc and straight parts together is not positive.
 TEST(PathSolverStatus, PathBalancedOnTheFarSideOfASphereIsNotMinimum) {
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(-3, 0, 0)).obstacle(std::make_shared<Sphere>(1), Pose(Vec3(0, 0.1, 1e-4)), Vec3(0, 1, 0));
     scene.point(Vec3(3, 0, 0));
     const PathSolution path = scene.solve();
@@ -83,7 +83,7 @@ private:
 
 TEST(PathSolverStatus, ArcOutsideTheDomainIsReported) {
     for (double z : {0.0, 0.3}) {
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(-1, 0, z)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, z));
         scene.point(Vec3(1, 0, z));
         const PathSolution path = scene.solve();
@@ -94,7 +94,7 @@ TEST(PathSolverStatus, ArcOutsideTheDomainIsReported) {
 
 // Symptom (2026-11-25): solved, with a length that is no number, or straight through the obstacle.
 TEST(PathSolverStatus, APoseThatIsNotFiniteIsNeverSolved) {
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(-1, 0.2, 0)).obstacle(std::make_shared<Sphere>(0.4), Pose()).point(Vec3(1, 0.1, 0));
     const PathSolution good = scene.solve();
     ASSERT_EQ(good.status, PathStatus::Solved);

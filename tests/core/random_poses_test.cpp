@@ -19,8 +19,8 @@ namespace {
 
 using testing::RandomScene;
 
-/** Shots are geodesics: about 40 iterations with up to 7 trials, for each contact set that is tried. */
-constexpr int kMaxShots = 200000;
+/** Shots are geodesics: after 20,000 per element of the path no search begins anew, but one that has begun ends. */
+constexpr int kMaxShotsPerElement = 25000;
 
 bool isFinite(const PathSolution& path, const std::vector<Vec3>& points) {
     bool finite = std::isfinite(path.length);
@@ -53,7 +53,7 @@ std::string classify(const PathProblem& problem, const PathPose& pose, const Pat
     return key + ", unexplained: " + why;
 }
 
-/** One scene in seven is made of all kinds and forms of surfaces, some of which are slow. */
+/** One scene in eight is made of all kinds and forms of surfaces, some of which are slow. */
 RandomScene::Kinds chooseKinds(unsigned seed) {
     if (seed % 8 == 0) return RandomScene::Kinds::All;
     return seed % 128 == 4 ? RandomScene::Kinds::Aligned : RandomScene::Kinds::Basic;
@@ -82,6 +82,7 @@ void runScenes(int count, unsigned firstSeed) {
         if (elapsed.count() > slowest.seconds) slowest = {elapsed.count(), seed};
         calcDrawingPoints(path, problem, pose, 0.3, points);
         EXPECT_TRUE(isFinite(path, points)) << "seed " << seed << ", " << getName(path.status);
+        EXPECT_LE(path.shots, kMaxShotsPerElement * problem.getNumElements()) << "seed " << seed;
         if (path.shots > mostShots) mostShots = path.shots, worstSeed = static_cast<int>(seed);
         if (path.status == PathStatus::Solved) {
             EXPECT_TRUE(verifyPath(problem, pose, path).isMinimum()) << "seed " << seed;
@@ -90,7 +91,6 @@ void runScenes(int count, unsigned firstSeed) {
         EXPECT_EQ(outcome.find("unexplained"), std::string::npos) << "seed " << seed << ": " << outcome;
         ++outcomes[outcome];
     }
-    EXPECT_LE(mostShots, kMaxShots) << "seed " << worstSeed;
     std::cout << count << " scenes from seed " << firstSeed << ", most shots " << mostShots << " (seed " << worstSeed
               << "), slowest solve " << slowest.seconds << " s (seed " << slowest.seed << ")\n";
     for (const auto& [outcome, number] : outcomes) std::cout << "  " << outcome << ": " << number << "\n";
@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Parts, RandomPoses, ::testing::Range(0, 4));
 
 // Symptoms until 2026-11-25: tiny bodies on the straight line under whose touch the search strayed, lines along the
 // axis of a capsule, the apex of a cone, arcs beyond their conjugate points that no search among geodesics left, cusps
-// where surfaces overlap.
+// where surfaces overlap, 276,105 shots.
 TEST(RandomScenes, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
     struct Scene {
         unsigned seed;
@@ -125,7 +125,7 @@ TEST(RandomScenes, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
           Scene{1016512, kAll, true},    Scene{1069064, kAll, true},    Scene{1070768, kAll, true},
           Scene{1085768, kAll, false},   Scene{1584688, kAll, false},   Scene{1667733, kBasic, false},
           Scene{1787872, kAll, false},   Scene{1806640, kAll, true},    Scene{1821152, kAll, false},
-          Scene{1472824, kAll, false},   Scene{1649520, kAll, true}}) {
+          Scene{1472824, kAll, false},   Scene{1649520, kAll, true},    Scene{1282183, kBasic, false}}) {
         SCOPED_TRACE(scene.seed);
         PathProblem problem;
         PathPose pose;
@@ -133,6 +133,7 @@ TEST(RandomScenes, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
         const PathSolution path = solvePath(problem, pose);
         const std::string outcome = classify(problem, pose, path);
         EXPECT_EQ(outcome.find("unexplained"), std::string::npos) << outcome;
+        EXPECT_LE(path.shots, kMaxShotsPerElement * problem.getNumElements());
         // With an end inside, what is left of the obstacles still has a path.
         const bool isFound = path.status == PathStatus::Solved || path.status == PathStatus::EndInside;
         EXPECT_TRUE(isFound || !scene.hasMinimum) << outcome;

@@ -14,30 +14,31 @@
 namespace tautline::testing {
 
 /** A problem with its poses, built in one go. */
-struct Scene {
+struct PathScene {
     PathProblem problem;
     PathPose pose;
 
-    Scene& point(const Vec3& p) {
+    PathScene& point(const Vec3& p) {
         problem.addPoint("point" + std::to_string(problem.getNumElements()));
         pose.X_GE.emplace_back(p);
         return *this;
     }
-    Scene& obstacle(std::shared_ptr<const Surface> surface, const Pose& X, std::optional<Vec3> hint_S = std::nullopt) {
+    PathScene& obstacle(std::shared_ptr<const Surface> surface, const Pose& X,
+                        std::optional<Vec3> hint_S = std::nullopt) {
         problem.addObstacle("obstacle" + std::to_string(problem.getNumElements()), std::move(surface), hint_S);
         pose.X_GE.push_back(X);
         return *this;
     }
     PathSolution solve(const PathSolverOptions& options = {}) const { return solvePath(problem, pose, options); }
-    Scene movedBy(const Pose& X) const {
-        Scene moved = *this;
+    PathScene movedBy(const Pose& X) const {
+        PathScene moved = *this;
         for (Pose& X_GE : moved.pose.X_GE) X_GE = X * X_GE;
         return moved;
     }
 };
 
 /** Finite and drawable, whatever the status (path_solution.h). */
-inline void expectDrawable(const Scene& scene, const PathSolution& path) {
+inline void expectDrawable(const PathScene& scene, const PathSolution& path) {
     EXPECT_TRUE(std::isfinite(path.length) && std::isfinite(path.pathError));
     ASSERT_FALSE(path.segments.empty());
     for (const StraightSegment& s : path.segments) {
@@ -56,9 +57,9 @@ inline void expectDrawable(const Scene& scene, const PathSolution& path) {
 }
 
 /** Four quarter circles in a plane (osim-format.md, "Analytic cases"): radii 1, 1, 1.5, 2, straight parts of 15. */
-inline Scene makePlanarChain() {
+inline PathScene makePlanarChain() {
     const Mat3 turned = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
-    Scene scene;
+    PathScene scene;
     const auto add = [&](std::shared_ptr<const Surface> surface, const Mat3& R, const Vec3& p, const Vec3& middle_G) {
         const Pose X(R, p);
         scene.obstacle(std::move(surface), X, X.shiftBack(middle_G));

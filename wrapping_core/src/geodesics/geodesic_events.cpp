@@ -142,6 +142,38 @@ GeodesicPlace makePlace(const Station& station) {
     return {station.s, station.point};
 }
 
+/** A largest value and where it is. */
+struct Peak {
+    double value, at;
+};
+
+/** Of the parabola through values at -1, 0 and 1, the middle one at least as large as the others; else the middle. */
+Peak findVertex(double before, double here, double after) {
+    const double bend = 2 * here - before - after, slope = 0.5 * (after - before);
+    if (!(here >= before && here >= after && bend > 0)) return {here, 0};
+    return {here + 0.5 * slope * slope / bend, slope / bend};
+}
+
+/** kappa_n at the peak that a parabola with this spacing suggests: with narrower ones, until they agree. */
+double refinePeak(const Surface& surface, const GeodesicStart& start, double spacing, Peak peak) {
+    constexpr int kRefinements = 3;
+    constexpr double kNarrower = 0.1;
+    Geodesic arc;
+    const auto calc = [&](double s) {
+        surface.shootGeodesic({start.point, start.tangent, s}, kAlongArc, arc);
+        return arc.Q.kappaN;
+    };
+    double largest = -kInfinity;
+    for (int i = 0; i < kRefinements; ++i) {
+        spacing *= kNarrower;
+        const double before = calc(peak.at - spacing), here = calc(peak.at), after = calc(peak.at + spacing);
+        largest = std::max({largest, before, here, after});
+        const Peak vertex = findVertex(before, here, after);
+        peak.at = std::clamp(peak.at + vertex.at * spacing, std::min(0.0, start.length), std::max(0.0, start.length));
+    }
+    return std::max(largest, calc(peak.at));
+}
+
 }  // namespace
 
 std::optional<GeodesicPlace> findConjugatePoint(const Surface& surface, const GeodesicStart& start,
@@ -184,11 +216,19 @@ std::optional<GeodesicPlace> findDomainExit(const Surface& surface, const Geodes
 }
 
 double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const Geodesic& geodesic) {
-    double largest = std::max({geodesic.P.kappaN, geodesic.Q.kappaN, geodesic.maxKappaN});
+    const double largest = std::max({geodesic.P.kappaN, geodesic.Q.kappaN, geodesic.maxKappaN});
     const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * std::abs(start.length) / surface.getSize()));
     ArcWalker walker(surface, start, kAlongArc, pieces);
-    for (int i = 1; i < pieces; ++i) largest = std::max(largest, walker.next().Q.kappaN);
-    return largest;
+    Peak peak{largest, 0};
+    double before = geodesic.P.kappaN, here = walker.next().Q.kappaN;
+    for (int i = 1; i < pieces; ++i) {
+        const double after = i + 1 < pieces ? walker.next().Q.kappaN : geodesic.Q.kappaN;
+        const Peak vertex = findVertex(before, here, after);
+        if (vertex.value > peak.value) peak = {vertex.value, (i + vertex.at) * start.length / pieces};
+        before = here, here = after;
+    }
+    if (peak.value == largest) return largest;
+    return refinePeak(surface, start, start.length / pieces, peak);
 }
 
 }  // namespace tautline

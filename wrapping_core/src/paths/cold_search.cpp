@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "paths/hint_following.h"
 #include "tautline/paths/path_verification.h"
 
 namespace tautline {
@@ -10,6 +11,8 @@ namespace {
 constexpr double kStringPush = 0.1;  ///< the first one of a string that goes beyond a conjugate point, in sizes
 constexpr int kMaxStringPushes = 6;  ///< each twice the one before
 constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the other side
+/** Geodesics shot in a solve after which no further string leads to a search: what is found takes half as many. */
+constexpr int kMaxShotsPerElement = 20000;
 
 /** Nothing but a point at most: what leads to no minimum there may on another side. */
 bool leavesSideOpen(const StartHint& hint) {
@@ -37,6 +40,13 @@ bool ColdSearch::findPathAlong(const PathProblem& problem, const PathPose& pose,
 }
 
 bool ColdSearch::findPathFromHints(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    if (!findPathOfScene(problem, pose, path)) return false;
+    // Where a string slips off, it ends elsewhere than it was laid.
+    path.followsHints = path.followsHints && turnsAsHinted(problem, pose, path);
+    return true;
+}
+
+bool ColdSearch::findPathOfScene(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     if (findHintedPath(problem, pose, path)) return true;
     if (path.fault.kind != StringFault::Kind::Sliding) return false;
     // A string that still slides may come to rest in a scene that is moved by next to nothing.
@@ -92,6 +102,7 @@ bool ColdSearch::findPath(const PathProblem& problem, const PathPose& pose, cons
 bool ColdSearch::tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
                                int maxSweeps, const PassageRule& rule, PathSolution& path) {
     m_string.relax(problem, fineness, tolerance, maxSweeps);
+    if (path.shots > kMaxShotsPerElement * problem.getNumElements()) return false;
     for (ObstacleContact& contact : path.contacts) contact.clearance = LineClearance();
     m_string.extractContacts(problem, pose, path.contacts);
     if (m_search.findMinimum(problem, pose, rule, path)) return true;
@@ -122,8 +133,17 @@ bool ColdSearch::pushOffConjugatePoint(const PathProblem& problem, const PathPos
     return true;
 }
 
+/** @return false with `path` as it was, but for what was counted */
+bool ColdSearch::tryCourse(const PathProblem& problem, const PathPose& pose, const StartCourse& course,
+                           PathSolution& path) {
+    m_before = path;
+    if (findPath(problem, pose, course, path)) return true;
+    goBack(m_before, path);
+    return false;
+}
+
 /** Where points near the path lead to no minimum (they may be far from any), the sides that the straight lines between
-the others suggest may. @return false with `path` as it was */
+the others suggest may. */
 bool ColdSearch::findPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartCourse course,
                                        PathSolution& path) {
     bool hasPoints = false;
@@ -132,15 +152,10 @@ bool ColdSearch::findPathWithoutPoints(const PathProblem& problem, const PathPos
         hasPoints = hasPoints || !course.guides[e].empty();
         course.guides[e].clear();
     }
-    if (!hasPoints) return false;
-    m_before = path;
-    if (findPath(problem, pose, course, path)) return true;
-    goBack(m_before, path);
-    return false;
+    return hasPoints && tryCourse(problem, pose, course, path);
 }
 
-/** At last: a string that slips off where it was to be wound or threaded has a minimum elsewhere.
-@return false with `path` as it was */
+/** At last: a string that slips off where it was to be wound or threaded has a minimum elsewhere. */
 bool ColdSearch::findPathWithoutHints(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const int n = problem.getNumElements();
     StartCourse course{StartGuides(n), PassageRule{std::vector<int>(n, PassageRule::kAny)}};
@@ -151,32 +166,27 @@ bool ColdSearch::findPathWithoutHints(const PathProblem& problem, const PathPose
         hasHints = hasHints || !leavesSideOpen(element.hint);
     }
     if (!hasHints) return false;
-    m_before = path;
     m_string.beginSearch();
-    if (findPath(problem, pose, course, path)) return true;
+    if (tryCourse(problem, pose, course, path)) return true;
     // Where nothing is known against the hinted string, what keeps the free one from a minimum is the reason.
-    if (m_before.fault.kind == StringFault::Kind::None) m_before.fault = path.fault;
-    goBack(m_before, path);
+    if (path.fault.kind == StringFault::Kind::None) path.fault = m_string.findFault(problem);
     return false;
 }
 
 /** Where the side that the straight line or a point near the path suggests leads to no minimum (surfaces that overlap
-there, a contact that would have to be two), the other side of one obstacle may. @return false with `path` as it was */
+there, a contact that would have to be two), the other side of one obstacle may. */
 bool ColdSearch::findOtherSides(const PathProblem& problem, const PathPose& pose, StartCourse& course,
                                 PathSolution& path) {
     int tries = 0;
-    m_before = path;
     for (int e = 0; e < problem.getNumElements() && tries < kMaxOtherSides; ++e) {
         const PathElement& element = problem.getElement(e);
-        if (element.isPoint() || !pose.hasElement(e) || !m_before.contacts[e].isTouched ||
-            !leavesSideOpen(element.hint))
+        if (element.isPoint() || !pose.hasElement(e) || !path.contacts[e].isTouched || !leavesSideOpen(element.hint))
             continue;
         const std::vector<Vec3> hinted = course.guides[e];
-        course.guides[e] = {calcOppositeGuide(problem, pose, m_before, e)};
-        if (course.guides[e].front().allFinite() && ++tries && findPath(problem, pose, course, path)) return true;
+        course.guides[e] = {calcOppositeGuide(problem, pose, path, e)};
+        if (course.guides[e].front().allFinite() && ++tries && tryCourse(problem, pose, course, path)) return true;
         course.guides[e] = hinted;
     }
-    goBack(m_before, path);
     return false;
 }
 

@@ -23,6 +23,7 @@ public:
     bool findPathFromHints(const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
 private:
+    bool findPathOfScene(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool findHintedPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool findPath(const PathProblem& problem, const PathPose& pose, const StartCourse& course, PathSolution& path);
     bool tightenString(const PathProblem& problem, const PathPose& pose, double fineness, double tolerance,
@@ -30,6 +31,7 @@ private:
     bool isMinimumBesideRings(const PathProblem& problem, const PathPose& pose, PassageRule rule,
                               const PathSolution& path) const;
     bool pushOffConjugatePoint(const PathProblem& problem, const PathPose& pose, double push, const PathSolution& path);
+    bool tryCourse(const PathProblem& problem, const PathPose& pose, const StartCourse& course, PathSolution& path);
     bool findPathWithoutPoints(const PathProblem& problem, const PathPose& pose, StartCourse course,
                                PathSolution& path);
     bool findPathWithoutHints(const PathProblem& problem, const PathPose& pose, PathSolution& path);

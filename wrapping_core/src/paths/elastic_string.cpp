@@ -16,6 +16,7 @@ constexpr double kLayingDepthTolerance = 0.02;  ///< crossings shallower than th
 constexpr std::size_t kNeighbours = 4;          ///< obstacles before and after a portion that its mesh allows for
 constexpr double kTouching = 0.01;              ///< height in sizes below which a node counts as resting on a surface
 constexpr int kSweepsPerMesh = 20;
+constexpr double kTrusted = 0.25;  ///< part of its height that a node may travel before it is asked for again
 constexpr long kMaxHeightsPerElement = 300000;  ///< heights over surfaces that one laying may ask for: its time
 constexpr long kMaxLayings = 2;                 ///< so many times that is what all layings of a search may ask for
 constexpr double kMaxRelaxation = 1.9;
@@ -128,7 +129,7 @@ std::size_t ElasticString::findFirstHold(int node) const {
 
 /** Room at a point after a node: least of (size + distance) over the obstacles that act there or may soon, when
 a neighbour lifts and their portions grow. */
-double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int node) const {
+double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int node) {
     double room = m_extent;
     Vec3 N_S;
     const std::size_t first = findFirstHold(node);
@@ -139,6 +140,7 @@ double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int no
         if (node < hold.from || node > hold.to) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
         const double height = surface.calcHeight(hold.X_GS.shiftBack(x), N_S);
+        ++m_numHeights;
         room = std::min(room, surface.getSize() + std::max(0.0, height));
     }
     return room;
@@ -189,6 +191,8 @@ void ElasticString::remesh(const PathProblem& problem, double fineness) {
     m_nodes.swap(nodes);
     m_isFixed.swap(isFixed);
     m_room.assign(m_nodes.size(), m_extent);
+    m_travel.assign(m_nodes.size(), 0);
+    for (Hold& hold : m_holds) hold.seen.assign(m_nodes.size(), SeenHeight());
     m_stiffness.resize(m_nodes.size());
     for (std::size_t k = 0; k + 1 < m_nodes.size(); ++k)
         m_stiffness[k] = 1 / std::max(least * 1e-3, (m_nodes[k + 1] - m_nodes[k]).norm());
@@ -231,7 +235,7 @@ double ElasticString::sweep(const PathProblem& problem, double relaxation, bool 
         Vec3 move = relaxation * ((left * m_nodes[k - 1] + right * m_nodes[k + 1]) / (left + right) - old);
         const double limit = kMovePerRoom * m_room[k], length = move.norm();
         if (length > limit) move *= limit / length;
-        m_nodes[k] = old + move;
+        moveNode(k, old + move);
         double room = m_extent;
         pushOut(problem, k, room);
         m_room[k] = room;
@@ -240,21 +244,34 @@ double ElasticString::sweep(const PathProblem& problem, double relaxation, bool 
     return largest;
 }
 
-/** Moves a node out of the obstacles that act on it and notes the contacts. */
+void ElasticString::moveNode(int node, const Vec3& x) {
+    m_travel[node] += (x - m_nodes[node]).norm();
+    m_nodes[node] = x;
+}
+
+/** Moves a node out of the obstacles that act on it and notes the contacts. A height changes by no more than the node
+travels: far above a surface it need not be asked for in every sweep. */
 void ElasticString::pushOut(const PathProblem& problem, int node, double& room) {
     for (std::size_t i = findFirstHold(node); i < m_holds.size() && m_holds[i].portionBegin < node; ++i) {
         Hold& hold = m_holds[i];
         if (hold.isSwitchedOff) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
+        const double size = surface.getSize();
+        SeenHeight& seen = hold.seen[node];
+        if (const double moved = m_travel[node] - seen.travel; moved < kTrusted * seen.height) {
+            room = std::min(room, size + seen.height - moved);
+            continue;
+        }
         Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
-        const double height = surface.calcHeight(p_S, N_S), size = surface.getSize();
+        const double height = surface.calcHeight(p_S, N_S);
+        seen = {height, m_travel[node]};
         ++m_numHeights;
         room = std::min(room, size + std::max(0.0, height));
         if (height > 0) continue;
         if (height > -0.02 * size)
-            m_nodes[node] = hold.X_GS * Vec3(p_S - height * N_S);
+            moveNode(node, hold.X_GS * Vec3(p_S - height * N_S));
         else
-            m_nodes[node] = hold.X_GS * surface.findSurfacePoint(p_S).p;
+            moveNode(node, hold.X_GS * surface.findSurfacePoint(p_S).p);
         noteContact(hold, node);
     }
 }

@@ -35,6 +35,11 @@ public:
     const std::vector<Vec3>& getNodes() const { return m_nodes; }
 
 private:
+    /** How high above a surface a node was when it was last asked, and how far it had travelled then. */
+    struct SeenHeight {
+        double height = 0, travel = 0;  ///< [m]
+    };
+
     /** An obstacle's hold on the string; node indices, -1 where it does not touch. */
     struct Hold {
         int element = -1;
@@ -43,6 +48,7 @@ private:
         int from = -1, to = -1;                ///< fixed nodes that bound its strand
         int portionBegin = 0, portionEnd = 0;  ///< nodes on which it may act, inclusive
         bool isSwitchedOff = false;
+        std::vector<SeenHeight> seen;  ///< per node
         bool touches() const { return first >= 0; }
     };
 
@@ -53,7 +59,8 @@ private:
     void updatePortions(const PathProblem& problem);
     double sweep(const PathProblem& problem, double relaxation, bool isForward);
     std::size_t findFirstHold(int node) const;
-    double calcRoom(const PathProblem& problem, const Vec3& x, int node) const;
+    double calcRoom(const PathProblem& problem, const Vec3& x, int node);
+    void moveNode(int node, const Vec3& x);
     void pushOut(const PathProblem& problem, int node, double& room);
     double calcHeight(const PathProblem& problem, const Hold& hold, int node) const;
     bool leavesAndReturns(const PathProblem& problem, const Hold& hold) const;
@@ -61,6 +68,7 @@ private:
 
     std::vector<Vec3> m_nodes;
     std::vector<char> m_isFixed;
+    std::vector<double> m_travel;     ///< of each node, since the last mesh was made [m]
     std::vector<double> m_stiffness;  ///< of edge k between nodes k and k + 1
     std::vector<double> m_room;       ///< per node: size of the nearest obstacle plus distance to it [m]
     std::vector<Hold> m_holds;

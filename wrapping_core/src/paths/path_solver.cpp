@@ -154,17 +154,14 @@ void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& 
 
 /** Says how the solve ended. @param isFound   `path` is verified to be a minimum */
 void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool isFound, PathSolution& path) const {
-    const bool isConverged = path.pathError <= m_options.pathErrorTolerance;
+    const bool isConverged = path.pathError <= m_options.pathErrorTolerance && std::isfinite(path.length);
     updatePassages(problem, pose, isConverged, path);
-    path.status = PathStatus::Solved;
+    path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
+    if (!isConverged) return;
     visitObstacles(problem, pose, [&](int e) {
         if (path.contacts[e].isSwitchedOff) path.status = PathStatus::EndInside;
     });
     if (isFound) return;
-    if (!isConverged) {
-        path.status = PathStatus::NotConverged;
-        return;
-    }
     const PathVerification verification = verifyPath(problem, pose, path);
     if (verification.condition == PathVerification::Condition::OutsideDomain)
         path.status = PathStatus::LeftDomain;

@@ -1,15 +1,20 @@
 #include "tautline/paths/segment_clearance.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "surfaces/low_place.h"
 
 namespace tautline {
 namespace {
 
-/** The clearance of a line of which nothing is known yet: Newton from the segment's lowest point. */
-void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
+constexpr double kSamePlace = 1e-9;  ///< by which, of itself, a height may fall below the distance of the same place
+
+/** The clearance of a line of which nothing is known yet: Newton from the segment's lowest point, at s. */
+void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, double s,
                         LineClearance& clearance) {
     constexpr int kApproaches = 4;
-    Vec3 D = A_S + surface.findLowestPoint(A_S, e_S, length) * e_S, N;
+    Vec3 D = A_S + s * e_S, N;
     const bool isOutside = surface.calcHeight(D, N) > 0;
     clearance.C = surface.findSurfacePoint(D);
     // From foot to foot: the lowest point of a line is far from the nearest one where a surface is thin.
@@ -20,6 +25,18 @@ void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S
     clearance.N = surface.calcFrame(clearance.C, e_S).N;
     surface.findLineClearance(A_S, e_S, clearance);
     if (isOutside && !(clearance.distance > 0)) clearance.found = false;  // the far side of the surface
+}
+
+/** A line that has sunk so deep that it has no critical point on the kept side any longer, beyond the centres of
+curvature, may show one on the far side, clear of it: the height over the tangent plane at the kept place tells. */
+void staySunk(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, LineClearance& clearance) {
+    if (!(clearance.distance > 0) || !(clearance.N.dot(clearance.keptN) < 0)) return;
+    const double s = std::clamp(e_S.dot(clearance.keptC.p - A_S), 0.0, length);
+    const double height = clearance.keptN.dot(A_S + s * e_S - clearance.keptC.p);
+    if (!(height < 0)) return;
+    clearance.C = clearance.keptC, clearance.N = clearance.keptN;
+    clearance.distance = height, clearance.scale = 1 / surface.getSize();
+    clearance.lineCoordinate = s, clearance.found = true;
 }
 
 /** The height of one point of the line as its clearance. */
@@ -41,8 +58,12 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
     LineClearance kept = clearance;
     kept.found = false;
     kept.C = clearance.keptC, kept.N = clearance.keptN;
-    if (kept.N.allFinite() && kept.C.p.allFinite()) surface.findLineClearance(A_S, e_S, kept);
-    if (!kept.found) findFreshClearance(surface, A_S, e_S, length, kept);
+    const bool knowsSide = kept.N.allFinite() && kept.C.p.allFinite();
+    if (knowsSide) surface.findLineClearance(A_S, e_S, kept);
+    if (!kept.found) {
+        findFreshClearance(surface, A_S, e_S, length, surface.findLowestPoint(A_S, e_S, length), kept);
+        if (knowsSide) staySunk(surface, A_S, e_S, length, kept);
+    }
     // Eqn. 6.3 puts D on the infinite line: past an end, the height of that end is what counts.
     if (!kept.found)
         takeHeight(surface, A_S, e_S, surface.findLowestPoint(A_S, e_S, length), kept);
@@ -60,18 +81,18 @@ void takeNearerClearance(const Surface& surface, const Pose& X_GS, const Vec3& A
     const double length = (B_S - A_S).norm();
     if (!(length > 0)) return;
     const Vec3 e_S = (B_S - A_S) / length;
-    // A few heights along the segment tell whether there is one.
-    constexpr int kSamples = 16;
-    bool isNearer = false;
+    LowPlace lowest{kNaN, (1 - kSamePlace) * clearance.distance};
     Vec3 N;
-    for (int i = 0; i <= kSamples && !isNearer; ++i)
-        isNearer = surface.calcHeight(A_S + (length * i / kSamples) * e_S, N) < (1 - 1e-9) * clearance.distance;
-    if (!isNearer) return;
+    for (const double s : {0.0, length})
+        if (const double height = surface.calcHeight(A_S + s * e_S, N); height < lowest.height) lowest = {s, height};
+    if (const auto place = findLowPlace(surface, A_S, e_S, length, lowest.height)) lowest = *place;
+    if (!std::isfinite(lowest.s)) return;
     LineClearance nearer = clearance;
     nearer.found = false;
-    findFreshClearance(surface, A_S, e_S, length, nearer);
+    findFreshClearance(surface, A_S, e_S, length, lowest.s, nearer);
     const bool isOnSegment = nearer.lineCoordinate >= 0 && nearer.lineCoordinate <= length;
-    if (!nearer.found || !isOnSegment || !(nearer.distance < clearance.distance)) return;
+    if (!nearer.found || !isOnSegment) takeHeight(surface, A_S, e_S, lowest.s, nearer);
+    if (!(nearer.distance < clearance.distance)) return;
     if (nearer.distance > 0) nearer.keptC = nearer.C, nearer.keptN = nearer.N;
     clearance = nearer;
 }

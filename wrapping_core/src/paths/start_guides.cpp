@@ -28,6 +28,22 @@ Vec3 makeCylindrical(double radius, double azimuth, double z) {
     return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
 }
 
+/** Where a ray from far outside towards the z axis of S, at this azimuth and height, meets the surface: no step is
+longer than the height there. From a ray that passes by, the surface point under its start. */
+Vec3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
+    constexpr int kMaxSteps = 200;
+    const double size = surface.getSize(), least = 1e-3 * size;
+    Vec3 N;
+    double radius = kFar * size;
+    for (int i = 0; i < kMaxSteps && radius > 0; ++i) {
+        const Vec3 p = makeCylindrical(radius, azimuth, z);
+        const double height = surface.calcHeight(p, N);
+        if (!(height > least)) return surface.findSurfacePoint(p).p;
+        radius -= height;
+    }
+    return surface.findSurfacePoint(makeCylindrical(kFar * size, azimuth, z)).p;
+}
+
 /** Where the line passes the hole, moved towards the centre until it lies clear of the surface. */
 Vec3 findHolePoint(const Surface& surface, const Chord& chord) {
     const Vec3 axis = surface.getHoleAxis(), step = chord.B_S - chord.A_S;
@@ -63,8 +79,7 @@ void guide(const Surface& surface, const WindAround& hint, const Chord& chord, s
     for (int i = 0; i < count; ++i) {
         const double fraction = (i + 0.5) / count;
         const double z = chord.A_S.z() + fraction * (chord.B_S.z() - chord.A_S.z());
-        const Vec3 outside = makeCylindrical(kFar * surface.getSize(), from + fraction * turn, z);
-        guides_S.push_back(surface.findSurfacePoint(outside).p);
+        guides_S.push_back(findOutermostPoint(surface, from + fraction * turn, z));
     }
 }
 

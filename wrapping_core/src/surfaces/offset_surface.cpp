@@ -229,19 +229,6 @@ void OffsetSurface::shootGeodesic(const GeodesicStart& start, const GeodesicOpti
     geodesic.endPoint = {geodesic.Q.x, equations.foot.uv, equations.foot.chart};
 }
 
-/** Lowest over the base is near enough to the lowest over the offset to start from, and refined from there. */
-double OffsetSurface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
-    constexpr int kRefinements = 6;
-    double s = m_base->findLowestPoint(A_S, e_S, length);
-    for (int i = 0; i < kRefinements; ++i) {  // Newton on the slope of f along the line
-        const ImplicitValue value = calcImplicit(A_S + s * e_S);
-        const double curvature = e_S.dot(value.hessian * e_S);
-        if (!(curvature > 0)) break;
-        s = std::clamp(s - value.gradient.dot(e_S) / curvature, 0.0, length);
-    }
-    return s;
-}
-
 /** That of its foot. */
 double OffsetSurface::calcDomainMargin(const SurfacePoint& point) const {
     SurfacePoint C;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "geodesics/arc_walker.h"
-#include "surfaces/refine_lowest.h"
+#include "surfaces/low_place.h"
 #include "tautline/error.h"
 
 namespace tautline {
@@ -47,18 +47,10 @@ void Surface::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance&
 }
 
 double Surface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
-    constexpr int kLeastSamples = 16, kMostSamples = 400, kRefinements = 30;
-    const int count = std::clamp(static_cast<int>(4 * length / getSize()), kLeastSamples, kMostSamples);
     Vec3 N;
-    const auto height = [&](double s) { return calcHeight(A_S + s * e_S, N); };
-    const double spacing = length / count;
-    double lowest = 0, least = height(0);
-    for (int i = 1; i <= count; ++i) {
-        const double h = height(i * spacing);
-        if (h < least) least = h, lowest = i * spacing;
-    }
-    // Between the neighbours the height is convex for all but contrived surfaces.
-    return refineLowest(height, std::max(0.0, lowest - spacing), std::min(length, lowest + spacing), kRefinements);
+    const double atA = calcHeight(A_S, N), atB = calcHeight(A_S + length * e_S, N);
+    if (const auto place = findLowPlace(*this, A_S, e_S, length, std::min(atA, atB))) return place->s;
+    return atA <= atB ? 0 : length;
 }
 
 int Surface::countHoleCrossings(const Vec3&, const Vec3&) const {

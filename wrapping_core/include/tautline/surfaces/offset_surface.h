@@ -31,7 +31,6 @@ public:
     SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vec3& displacement_S) const override;
     DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override;
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
-    double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
 
     int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
         return m_base->countHoleCrossings(A_S, B_S);

@@ -1,0 +1,80 @@
+#include "surfaces/low_place.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tautline {
+namespace {
+
+constexpr int kPatience = 100;   ///< short steps after which they become twice as long: a segment near for long
+constexpr double kLevel = 1e-9;  ///< slopes that count as none: what tangency leaves
+
+/** A point of the line: its height and, within the accuracy of heights, the slope of that along the line. */
+struct Sample {
+    double s, height, slope;
+};
+
+class LineHeights {
+public:
+    LineHeights(const Surface& surface, const Vec3& A_S, const Vec3& e_S) : m_surface(surface), m_A(A_S), m_e(e_S) {}
+
+    Sample operator()(double s) const {
+        Vec3 N;
+        const double height = m_surface.calcHeight(m_A + s * m_e, N);
+        return {s, height, N.dot(m_e)};
+    }
+
+    /** Between a sample where the line goes down and one where it comes up again: regula falsi (Illinois). */
+    LowPlace findMinimum(Sample down, Sample up) const {
+        constexpr int kMaxIterations = 60;
+        const double tolerance = 1e-9 * m_surface.getSize();
+        double slopeDown = down.slope, slopeUp = up.slope;
+        bool wasDown = false, wasUp = false;
+        for (int i = 0; i < kMaxIterations && up.s - down.s > tolerance; ++i) {
+            const double s = (down.s * slopeUp - up.s * slopeDown) / (slopeUp - slopeDown);
+            const Sample middle = (*this)(std::clamp(s, down.s, up.s));
+            const bool isDown = middle.slope < 0;
+            if (isDown) {
+                down = middle, slopeDown = middle.slope;
+                if (wasDown) slopeUp /= 2;
+            } else {
+                up = middle, slopeUp = middle.slope;
+                if (wasUp) slopeDown /= 2;
+            }
+            wasDown = isDown, wasUp = !isDown;
+            if (std::abs(middle.slope) < 1e-3 * kLevel) break;
+        }
+        const Sample& lower = down.height < up.height ? down : up;
+        return {lower.s, lower.height};
+    }
+
+private:
+    const Surface& m_surface;
+    const Vec3 m_A, m_e;
+};
+
+}  // namespace
+
+std::optional<LowPlace> findLowPlace(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
+                                     double bound) {
+    const LineHeights calc(surface, A_S, e_S);
+    double leastStep = surface.getSize() / 4;
+    int numSteps = 0;
+    std::optional<LowPlace> lowest;
+    std::optional<Sample> down;  // the last sample from which the line goes down
+    for (Sample here = calc(0);;) {
+        if (here.slope < -kLevel) down = here;
+        if (here.slope > kLevel && down) {
+            const bool mayBeLower = (down->height + here.height) / 2 - (here.s - down->s) < bound;
+            const LowPlace place = mayBeLower ? calc.findMinimum(*down, here) : LowPlace{here.s, bound};
+            if (place.height < bound) lowest = place, bound = place.height;
+            down.reset();
+        }
+        if (!(here.s < length)) return lowest;
+        if (++numSteps % kPatience == 0) leastStep *= 2;
+        const double step = std::max({leastStep, here.height / 4, (here.height - bound) / 2});
+        here = calc(std::min(length, here.s + step));
+    }
+}
+
+}  // namespace tautline
