@@ -56,7 +56,7 @@ struct Scene {
     Vec3 origin = Vec3::Zero(), insertion = Vec3::Zero();
     Wave3 originWave, insertionWave;
     std::vector<SceneObstacle> obstacles;
-    // Answers: one entry for a static scene, one per step for a moving one.
+    // Answers: one entry for a static scene, one per step for a moving one; empty where none are listed.
     double start = 0, dt = 0;
     int steps = 1;
     std::vector<double> length, rate;
@@ -65,6 +65,7 @@ struct Scene {
     std::vector<EventTruth> events;
 
     bool isMoving() const { return dt > 0; }
+    bool hasAnswer() const { return !length.empty(); }
 };
 
 inline Vec3 toVec3(const nlohmann::json& json) {
@@ -89,6 +90,17 @@ inline std::shared_ptr<const Surface> makeSurface(const std::string& kind, const
     throw InvalidInput("scene file: unknown obstacle kind '" + kind + "'");
 }
 
+/** Answers are looked up by step and obstacle: nothing may be missing from a list of them. */
+inline void requireWholeAnswer(const Scene& scene) {
+    const std::size_t steps = scene.steps, obstacles = scene.obstacles.size();
+    bool isWhole = scene.length.size() == steps && scene.contact.size() == steps && scene.segments.size() == obstacles;
+    isWhole = isWhole && scene.rate.size() == (scene.isMoving() ? steps : 0);
+    for (const std::vector<bool>& flags : scene.contact) isWhole = isWhole && flags.size() == obstacles;
+    for (std::size_t i = 0; isWhole && i < obstacles; ++i)
+        isWhole = !scene.contact.front()[i] || scene.segments[i].has_value();
+    require(isWhole, "scene '", scene.id, "': its truth does not have one entry for each step and obstacle");
+}
+
 inline Scene toScene(const nlohmann::json& json) {
     Scene scene;
     scene.id = json.at("id"), scene.family = json.at("family"), scene.difficulty = json.at("difficulty");
@@ -111,6 +123,7 @@ inline Scene toScene(const nlohmann::json& json) {
         }
         scene.start = json.at("time").at("start"), scene.dt = json.at("time").at("dt");
         scene.steps = json.at("time").at("steps");
+        require(scene.dt > 0 && scene.steps > 0, "scene '", scene.id, "': its time has no steps");
     }
     if (!hasTruth) return scene;
     const auto& truth = json.at("truth");
@@ -136,6 +149,7 @@ inline Scene toScene(const nlohmann::json& json) {
         scene.contact = {truth.at("contact").get<std::vector<bool>>()};
         readSegments(truth.at("segments"));
     }
+    requireWholeAnswer(scene);
     return scene;
 }
 
@@ -147,7 +161,7 @@ inline std::vector<Scene> readScenes(const std::filesystem::path& file) {
     try {
         const nlohmann::json json = nlohmann::json::parse(stream);
         for (const auto& scene : json.at("scenes")) scenes.push_back(toScene(scene));
-    } catch (const nlohmann::json::exception& error) {
+    } catch (const std::exception& error) {
         throw InvalidInput(file.string() + ": " + error.what());
     }
     return scenes;

@@ -49,7 +49,7 @@ public:
             const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
             calcVelocity(m_scene, t, m_velocity);
             result.steps.push_back({t, calcLengthRate(path, m_pose, m_velocity), elapsed.count(), path});
-            if (k > 0 && !haveSameContacts(before, path)) locateEvents(before, t - m_scene.dt, t, result.events);
+            if (k > 0) locateEvents(before, path, t - m_scene.dt, t, result.events);
         }
         return result;
     }
@@ -79,7 +79,26 @@ private:
         return first;
     }
 
-    void locateEvents(PathSolution path, double from, double to, std::vector<FoundEvent>& events) {
+    /** Whether a contact of a path solved with its contacts kept would have to change. */
+    bool wantsSwitch(const PathSolution& path) const {
+        if (path.status != PathStatus::Solved) return false;  // where there is no path, witnesses tell nothing
+        for (int e = 1; e + 1 < m_problem.getNumElements(); ++e)
+            if (calcContactWitness(m_problem, path, e) < 0) return true;
+        return false;
+    }
+
+    /** Events of one step, half by half: a contact that changes there and back is at the end as it was at the start,
+    and only the middle tells of it. (Nothing tells of a pair within one half.) */
+    void locateEvents(PathSolution before, const PathSolution& after, double from, double to,
+                      std::vector<FoundEvent>& events) {
+        const double middle = 0.5 * (from + to);
+        if (haveSameContacts(before, after) && !wantsSwitch(solveAt(before, middle))) return;
+        followThroughEvents(before, from, middle, events);
+        followThroughEvents(before, middle, to, events);
+    }
+
+    /** @param path   in: before the events; out: after the last one, as it was if there is none */
+    void followThroughEvents(PathSolution& path, double from, double to, std::vector<FoundEvent>& events) {
         for (int guard = 0; guard < 2 * m_problem.getNumElements(); ++guard) {
             int element;
             const double t = findFirstCrossing(path, from, to, element);
@@ -99,11 +118,13 @@ private:
     std::vector<SpatialVelocity> m_velocity;
 };
 
-/** How an answer stands to the verified one. */
-enum class Verdict { Solved, OtherMinimum, Wrong, NotConverged };
+/** How an answer stands to the verified one, from best to worst; Unlisted: there is none to compare it with. */
+enum class Verdict { Unlisted, Solved, OtherMinimum, Wrong, NotConverged, Threw };
 
 inline const char* getName(Verdict verdict) {
     switch (verdict) {
+        case Verdict::Unlisted:
+            return "unlisted";
         case Verdict::Solved:
             return "solved";
         case Verdict::OtherMinimum:
@@ -112,6 +133,8 @@ inline const char* getName(Verdict verdict) {
             return "wrong";
         case Verdict::NotConverged:
             return "not converged";
+        case Verdict::Threw:
+            return "threw";
     }
     return "";
 }
@@ -120,6 +143,7 @@ inline const char* getName(Verdict verdict) {
 @param withPoints   compare contact points too (static scenes and the first step of moving ones) */
 inline Verdict judge(const Scene& scene, const PathProblem& problem, const PathPose& pose, const PathSolution& path,
                      int step, bool withPoints) {
+    if (!scene.hasAnswer()) return Verdict::Unlisted;
     if (path.status == PathStatus::NotConverged) return Verdict::NotConverged;
     if (path.status != PathStatus::Solved || !verifyPath(problem, pose, path).isMinimum()) return Verdict::Wrong;
     bool isSame = std::abs(path.length / scene.length[step] - 1) < 1e-9;
