@@ -92,6 +92,121 @@ TEST(PathSolverStatus, ArcOutsideTheDomainIsReported) {
     }
 }
 
+/** Asserts which condition is broken, at which element and where; and that the words say the same. */
+void expectBroken(const Scene& scene, const PathSolution& path, PathVerification::Condition condition, int element,
+                  const Vec3& place_G, double tolerance) {
+    const PathVerification verification = verifyPath(scene.problem, scene.pose, path);
+    EXPECT_EQ(verification.condition, condition);
+    EXPECT_EQ(verification.element, element);
+    EXPECT_LT((verification.place_G - place_G).norm(), tolerance) << verification.place_G.transpose();
+    const std::string text = describe(verification, scene.problem);
+    EXPECT_NE(text.find("'" + scene.problem.getElement(element).name + "'"), std::string::npos) << text;
+}
+
+/** A path with one contact, whose arc is given. */
+PathSolution makeStart(const Scene& scene, int element, const GeodesicStart& start) {
+    PathSolution path;
+    path.contacts.resize(scene.problem.getNumElements());
+    path.contacts[element].isTouched = true;
+    path.contacts[element].start = start;
+    return path;
+}
+
+PathSolution solveFrom(const Scene& scene, PathSolution path) {
+    PathSolverOptions options;
+    options.allowsColdStart = false;
+    PathSolver(options).solve(scene.problem, scene.pose, path);
+    return path;
+}
+
+// The geodesic crosses the inner equator of the torus. With sin(angle from the meridian) = c / rho (Clairaut) and
+// cos v = (rho - R) / a, kappaN = -cos^2 / a - sin^2 cos v / rho vanishes where rho^3 = c^2 R: from there on, towards
+// the equator, the string would lift.
+TEST(PathVerificationPlace, PullsOutwardBeginsWhereTheCubeOfRhoIsClairautsSquareTimesR) {
+    constexpr double R = 1, a = 0.25, c = 0.7, kHalf = 0.5, kStraight = 0.5;
+    const auto torus = std::make_shared<Torus>(R, a);
+    const SurfacePoint equator = torus->findSurfacePoint(Vec3(R - a, 0, 0));
+    const double sine = c / (R - a), cosine = std::sqrt(1 - sine * sine);
+    Geodesic back, ahead;
+    torus->shootGeodesic({equator, Vec3(0, sine, -cosine), -kHalf}, {}, back);
+    torus->shootGeodesic({equator, Vec3(0, sine, -cosine), kHalf}, {}, ahead);
+    ASSERT_TRUE(back.Q.kappaN < 0 && ahead.Q.kappaN < 0);
+    const Pose X(Eigen::AngleAxisd(0.4, Vec3(1, 2, 2).normalized()).toRotationMatrix(), Vec3(0.2, -0.1, 0.3));
+    Scene scene;
+    scene.point(X * Vec3(back.Q.x - kStraight * back.Q.t)).obstacle(torus, X);
+    scene.point(X * Vec3(ahead.Q.x + kStraight * ahead.Q.t));
+    const PathSolution path = solveFrom(scene, makeStart(scene, 1, {back.endPoint, back.Q.t, 2 * kHalf}));
+    EXPECT_EQ(path.status, PathStatus::NotMinimum);
+    EXPECT_NEAR(path.length, 2 * (kHalf + kStraight), 1e-10);
+    const Vec3 place_S = X.shiftBack(verifyPath(scene.problem, scene.pose, path).place_G);
+    const double rho = std::cbrt(c * c * R), z = std::sqrt(a * a - (rho - R) * (rho - R));
+    EXPECT_NEAR(place_S.head<2>().norm(), rho, 1e-9);
+    EXPECT_NEAR(place_S.z(), z, 1e-9);  // above the equator: the first of two such places
+    EXPECT_LT(place_S.y(), 0);
+    expectBroken(scene, path, PathVerification::Condition::PullsOutward, 1, X * place_S, 1e-12);
+    EXPECT_NE(explainStatus(scene.problem, scene.pose, path).find("would lift inside at ("), std::string::npos);
+}
+
+// Over one tube of a torus, through the other: the line from (3, 0, 0) to the circle of radius a about (-R, 0, 0) makes
+// the angle alpha, sin alpha = a / (3 + R), with the x axis, and is deepest at the foot of (R, 0, 0).
+TEST(PathVerificationPlace, PenetrationOfItsOwnSurfaceIsWhereTheSegmentIsDeepest) {
+    constexpr double R = 1, a = 0.25;
+    const double sine = a / (3 + R), cosine = std::sqrt(1 - sine * sine);
+    const Vec3 foot(3 - (3 - R) * cosine * cosine, 0, (3 - R) * sine * cosine);
+    for (const double side : {-1.0, 1.0}) {  // the tube that is touched: the first, so that the segment out dips, or in
+        SCOPED_TRACE(side);
+        Scene scene;
+        scene.point(Vec3(-3, 0, 0)).obstacle(std::make_shared<Torus>(R, a), Pose()).point(Vec3(3, 0, 0));
+        const PathSolution path = solveFrom(scene, makeStart(scene, 1, {{Vec3(side * R, 0, a)}, Vec3(1, 0, 0), 0.05}));
+        EXPECT_EQ(path.status, PathStatus::NotMinimum);
+        ASSERT_TRUE(path.contacts[1].isTouched);
+        const Vec3 place(-side * foot.x(), 0, foot.z());
+        expectBroken(scene, path, PathVerification::Condition::Penetration, 1, place, 1e-6);
+        EXPECT_NE(explainStatus(scene.problem, scene.pose, path).find("in two places"), std::string::npos);
+    }
+}
+
+/** The second of two spheres has come up from below the line, by so little that the path and the surface pass in the
+same place. */
+TEST(PathVerificationPlace, PenetrationOfALiftedObstacleIsAtItsTop) {
+    constexpr double kDepth = 1e-5;
+    Scene scene;
+    scene.point(Vec3(-1, 0.6, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(-0.4, 0, 0)));
+    scene.obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(0.3, 0, 0))).point(Vec3(1, 0.6, 0));
+    PathSolution path = scene.solve();
+    ASSERT_TRUE(path.status == PathStatus::Solved && !path.contacts[1].isTouched && !path.contacts[2].isTouched);
+    scene.pose.X_GE[2].p.y() = 0.1 + kDepth;
+    PathSolver().solveKeepingContacts(scene.problem, scene.pose, path);
+    EXPECT_NEAR(path.contacts[2].clearance.distance, -kDepth, 1e-12);
+    expectBroken(scene, path, PathVerification::Condition::Penetration, 2, Vec3(0.3, 0.6, 0), 1.01 * kDepth);
+}
+
+// Unrolled, the path is straight, so that half way up it is at the top: there it crosses the edge z = 0.2.
+TEST(PathVerificationPlace, OutsideDomainIsOnTheEdge) {
+    Scene scene;
+    scene.point(Vec3(-1, 0, 0.1)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, 0.2));
+    scene.point(Vec3(1, 0, 0.3));
+    const PathSolution path = scene.solve();
+    EXPECT_EQ(path.status, PathStatus::LeftDomain);
+    expectBroken(scene, path, PathVerification::Condition::OutsideDomain, 1, Vec3(0, 0.4, 0.2), 1e-9);
+    const std::string text = explainStatus(scene.problem, scene.pose, path);
+    EXPECT_NE(text.find("the arc on 'obstacle1' leaves the domain of its surface at ("), std::string::npos) << text;
+}
+
+/** From outside in: the path is outside from the arc's start on, and that is the place. */
+TEST(PathVerificationPlace, OutsideDomainFromTheStartIsThere) {
+    Scene scene;
+    scene.point(Vec3(-1, 0, 0.3)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, 0.2));
+    scene.point(Vec3(1, 0, 0.1));
+    const PathSolution path = scene.solve();
+    EXPECT_EQ(path.status, PathStatus::LeftDomain);
+    // The tangent from (-1, 0) touches at x = -0.4^2; height goes with length, 0.2 over the whole path of two straight
+    // parts and the arc.
+    const double straight = std::sqrt(1 - 0.16), arc = 0.4 * (kPi - 2 * std::acos(0.4));
+    const Vec3 start(-0.16, 0.4 * std::sqrt(0.84), 0.3 - 0.2 * straight / (2 * straight + arc));
+    expectBroken(scene, path, PathVerification::Condition::OutsideDomain, 1, start, 1e-9);
+}
+
 // Symptom (2026-11-25): solved, with a length that is no number, or straight through the obstacle.
 TEST(PathSolverStatus, APoseThatIsNotFiniteIsNeverSolved) {
     PathScene scene;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "support/surface_cases.h"
 #include "tautline/error.h"
 #include "tautline/paths/path_solver.h"
@@ -227,8 +229,126 @@ TEST(FunctionSurfaces, PromisedConvexAreTrustedAndNotChecked) {
     EXPECT_GT(asked[false], 0);
 }
 
+/** The number of the law that a sentence is about. */
+int findLaw(const std::string& sentence) {
+    return std::stoi(sentence.substr(sentence.find(" law ") + 5));
+}
+
+/** The laws broken by two surfaces, in increasing order. */
+std::set<int> findBrokenLaws(const std::vector<std::string>& broken) {
+    std::set<int> laws;
+    for (const std::string& sentence : broken) laws.insert(findLaw(sentence));
+    return laws;
+}
+
+/** The user's saddle as a function, unlike it in all but the surface. */
+ImplicitFunctionSurface makeImplicitSaddle() {
+    return makeImplicitSurface("implicit saddle", 0.5, [](auto x, auto y, auto z) { return z - x * x + y * y; });
+}
+
+TEST(SameSurface, HoldsForAUsersTwoForms) {
+    const UserSaddle parametric;
+    const ImplicitFunctionSurface implicit = makeImplicitSaddle();
+    const auto samples = testing::makeSamples(implicit, 0.3, Vec3::Zero(), 0.4, {Vec3::Zero()}, 40, kSeed);
+    for (const auto& broken :
+         {checkSameSurface(implicit, parametric, samples), checkSameSurface(parametric, implicit, samples)})
+        EXPECT_TRUE(broken.empty()) << join(broken);
+}
+
+TEST(SameSurface, NamesAWrongRadiusWithPlaceAndAmount) {
+    const std::vector<SurfaceLawSample> samples = {{Vec3(0, 0.5, 0), Vec3(1, 0, 0), 0.3}};
+    const std::vector<std::string> broken = checkSameSurface(Sphere(0.4), ParametricSphere(0.41), samples);
+    EXPECT_EQ(findBrokenLaws(broken), std::set<int>{14}) << join(broken);
+    // 0.01 of 0.4
+    EXPECT_TRUE(names(broken, "law 14 (points of the first lie on the second): 0.025 exceeds 1e-09 at p = (  0 0.5"))
+        << join(broken);
+    EXPECT_TRUE(names(broken, Sphere(0.4).getDescription() + " and " + ParametricSphere(0.41).getDescription()));
+}
+
+/** A part that is missing is found by the points of the other, if the samples go there. */
+TEST(SameSurface, NamesTheSurfaceThatGoesOnWhereTheOtherEnds) {
+    const std::vector<SurfaceLawSample> middle = {{Vec3(0.4, 0, 0.1), Vec3(0, 1, 0), 0.1}};
+    const std::vector<SurfaceLawSample> beyond = {{Vec3(0.4, 0, 1), Vec3(0, 1, 0), 0.1}};
+    const Cylinder cylinder(0.4);
+    const Capsule capsule(0.4, 0.8, 0.4);
+    EXPECT_TRUE(checkSameSurface(capsule, cylinder, middle).empty());
+    EXPECT_TRUE(names(checkSameSurface(capsule, cylinder, beyond), "law 14 (points of the second lie on the first)"));
+}
+
+TEST(SameSurface, NamesANormalOfTheWrongSign) {
+    // f, gradient and Hessian belong together, so that only another form of the sphere can tell.
+    const ImplicitFunctionSurface wrong =
+        makeImplicitSurface("turned over", 0.4, [](auto x, auto y, auto z) { return 0.16 - x * x - y * y - z * z; });
+    const auto samples = testing::makeSamples(wrong, 0.5, Vec3::Zero(), 0.3, {}, 10, kSeed);
+    const std::vector<std::string> broken = checkSameSurface(Sphere(0.4), wrong, samples);
+    EXPECT_TRUE(names(broken, "law 16 (outward normals equal): 2 exceeds")) << join(broken);
+    EXPECT_EQ(findBrokenLaws(broken), (std::set<int>{15, 16})) << join(broken);
+}
+
+/** A sphere of which the heights alone are wrong. */
+class WrongHeight final : public ImplicitShape<WrongHeight> {
+public:
+    double getSize() const override { return 0.4; }
+    std::string getDescription() const override { return "wrong height"; }
+    ImplicitValue calcImplicit(const Vec3& p) const { return m_right.calcImplicit(p); }
+    double calcHeight(const Vec3& p, Vec3& N) const override { return m_factor * m_right.calcHeight(p, N); }
+    SurfacePoint findSurfacePoint(const Vec3& p) const override { return m_right.findSurfacePoint(p); }
+    explicit WrongHeight(double factor) : m_factor(factor) {}
+
+private:
+    Sphere m_right{0.4};
+    double m_factor;
+};
+
+TEST(SameSurface, NamesHeightsOfAnotherSignOrScale) {
+    const std::vector<SurfaceLawSample> samples = {{Vec3(0, 0.5, 0), Vec3(1, 0, 0), 0.3}};
+    const auto sign = checkSameSurface(Sphere(0.4), WrongHeight(-1), samples),
+               scale = checkSameSurface(Sphere(0.4), WrongHeight(1.01), samples);
+    EXPECT_TRUE(names(sign, "law 15 (heights of one sign)")) << join(sign);
+    EXPECT_TRUE(names(scale, "law 15 (slopes of the heights equal): 0.01 exceeds")) << join(scale);
+    EXPECT_EQ(findBrokenLaws(scale), std::set<int>{15}) << join(scale);
+}
+
+TEST(SameSurface, NamesTheCurvatureThatAWrongSecondDerivativeSpoils) {
+    const Vec3 axes(0.05, 0.03, 0.08);
+    const WrongHessian wrongHessian;  // of d2f/dx2: at the pole of y what curves along x
+    const auto alongX = checkSameSurface(Ellipsoid(axes), wrongHessian, {{Vec3(0, 0.03, 0), Vec3(1, 0, 0), 0.02}});
+    EXPECT_TRUE(names(alongX, "law 17 (kappaN equal)")) << join(alongX);
+    EXPECT_FALSE(names(alongX, "law 17 (kappaB") || names(alongX, "law 17 (tauG")) << join(alongX);
+    const auto acrossX = checkSameSurface(Ellipsoid(axes), wrongHessian, {{Vec3(0, 0.03, 0), Vec3(0, 0, 1), 0.02}});
+    EXPECT_TRUE(names(acrossX, "law 17 (kappaB equal)")) << join(acrossX);
+    EXPECT_FALSE(names(acrossX, "law 17 (kappaN")) << join(acrossX);
+    const WrongTwist wrongTwist;  // of d2x/dudv: at the saddle's middle the torsion along x
+    const auto twisted = checkSameSurface(makeImplicitSaddle(), wrongTwist, {{Vec3::Zero(), Vec3(1, 0, 0), 0.2}});
+    EXPECT_TRUE(names(twisted, "law 17 (tauG equal): 0.02 exceeds")) << join(twisted);
+    EXPECT_FALSE(names(twisted, "law 17 (kappa")) << join(twisted);
+    for (const auto& broken : {alongX, acrossX, twisted})
+        EXPECT_TRUE(*findBrokenLaws(broken).begin() == 17 && names(broken, "law 19")) << join(broken);
+}
+
+/** A sphere whose geodesics go one percent too far. */
+class WrongSpeed final : public ImplicitShape<WrongSpeed> {
+public:
+    double getSize() const override { return 0.4; }
+    std::string getDescription() const override { return "wrong speed"; }
+    ImplicitValue calcImplicit(const Vec3& p) const { return m_right.calcImplicit(p); }
+    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
+        m_right.shootGeodesic({start.point, start.tangent, 1.01 * start.length}, options, geodesic);
+    }
+
+private:
+    Sphere m_right{0.4};
+};
+
+TEST(SameSurface, NamesGeodesicsThatEndElsewhere) {
+    const auto broken = checkSameSurface(Sphere(0.4), WrongSpeed(), {{Vec3(0, 0.5, 0), Vec3(1, 0, 0), 0.4}});
+    EXPECT_EQ(findBrokenLaws(broken), (std::set<int>{18, 19})) << join(broken);
+    EXPECT_TRUE(names(broken, "law 18 (geodesics end at the same place): 0.00999996 exceeds")) << join(broken);
+}
+
 TEST(SurfaceLawsReport, RefusesASampleWithoutLength) {
     EXPECT_THROW(checkSurfaceLaws(Sphere(1), {{Vec3(1, 0, 0), Vec3(0, 1, 0), 0}}), InvalidInput);
+    EXPECT_THROW(checkSameSurface(Sphere(1), Sphere(1), {{Vec3(1, 0, 0), Vec3(0, 1, 0), 0}}), InvalidInput);
 }
 
 }  // namespace

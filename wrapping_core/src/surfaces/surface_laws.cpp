@@ -11,18 +11,68 @@
 namespace tautline {
 namespace {
 
-/** Checks one surface at one sample; `broken` collects the sentences. */
-class LawChecker {
+/** Laws at one sample; `broken` collects the sentences, which begin with `subject`. */
+class SampleChecker {
+protected:
+    SampleChecker(std::string subject, double size, const SurfaceLawSample& sample, const SurfaceLawOptions& options,
+                  std::vector<std::string>& broken)
+        : m_sample(sample), m_options(options), m_size(size), m_subject(std::move(subject)), m_broken(broken) {}
+
+    /** Notes a broken law unless value <= limit; NaN breaks it. */
+    void demand(double value, double limit, const std::string& law) {
+        if (value <= limit) return;
+        std::ostringstream text;
+        text.precision(6);
+        text << m_subject << " law " << law << ": " << value << " exceeds " << limit << " at p = ("
+             << m_sample.p_S.transpose() << "), direction (" << m_sample.direction_S.transpose() << "), length "
+             << m_sample.length;
+        m_broken.push_back(text.str());
+        m_isBroken = true;
+    }
+    bool isBroken() const { return m_isBroken; }
+    double exact() const { return m_options.exactTolerance; }
+
+    Geodesic shoot(const Surface& surface, const SurfacePoint& point, const Vec3& tangent, double length) const {
+        Geodesic geodesic;
+        surface.shootGeodesic({point, tangent, length}, m_options.geodesics, geodesic);
+        return geodesic;
+    }
+    /** Difference of two frames as places and directions; curvatures apart. */
+    double calcDifference(const DarbouxFrame& a, const DarbouxFrame& b) const {
+        return std::max({(a.x - b.x).norm() / m_size, (a.t - b.t).norm(), (a.N - b.N).norm(), (a.B - b.B).norm()});
+    }
+    /** Largest of 1/size and the curvatures: what curvatures are measured in. */
+    double calcUnitCurvature(const DarbouxFrame& f) const {
+        return std::max({1 / m_size, std::abs(f.kappaN), std::abs(f.kappaB), std::abs(f.tauG)});
+    }
+    /** Products of Jacobi fields: how much an error at the start may have grown at the end. */
+    double calcGrowth(const Geodesic& g) const {
+        return std::max(
+            {1.0, std::abs(g.a * g.rDot), std::abs(g.aDot * g.r), std::abs(g.r) / m_size, std::abs(g.aDot) * m_size});
+    }
+
+    const SurfaceLawSample& m_sample;
+    const SurfaceLawOptions& m_options;
+    const double m_size;
+
+private:
+    const std::string m_subject;
+    std::vector<std::string>& m_broken;
+    bool m_isBroken = false;
+};
+
+/** Checks one surface at one sample. */
+class LawChecker : private SampleChecker {
 public:
     LawChecker(const Surface& surface, const SurfaceLawSample& sample, const SurfaceLawOptions& options,
                std::vector<std::string>& broken)
-        : m_surface(surface), m_sample(sample), m_options(options), m_broken(broken), m_size(surface.getSize()) {}
+        : SampleChecker(surface.getDescription() + " breaks", surface.getSize(), sample, options, broken),
+          m_surface(surface) {}
 
     void checkAll() {
         m_point = m_surface.findSurfacePoint(m_sample.p_S);
         m_frame = m_surface.calcFrame(m_point, m_sample.direction_S);
-        m_curvature =
-            std::max({1 / m_size, std::abs(m_frame.kappaN), std::abs(m_frame.kappaB), std::abs(m_frame.tauG)});
+        m_curvature = calcUnitCurvature(m_frame);
         checkFrame();
         if (!m_frame.N.allFinite() || !m_frame.t.allFinite()) return;  // said; the rest would only repeat it
         checkProjection();
@@ -40,31 +90,14 @@ public:
     }
 
 private:
-    /** Notes a broken law unless value <= limit; NaN breaks it. */
-    void demand(double value, double limit, const std::string& law) {
-        if (value <= limit) return;
-        std::ostringstream text;
-        text.precision(6);
-        text << m_surface.getDescription() << " breaks law " << law << ": " << value << " exceeds " << limit
-             << " at p = (" << m_sample.p_S.transpose() << "), direction (" << m_sample.direction_S.transpose()
-             << "), length " << m_sample.length;
-        m_broken.push_back(text.str());
-    }
-    double exact() const { return m_options.exactTolerance; }
-
     double calcHeight(const Vec3& p) const {
         Vec3 N;
         return m_surface.calcHeight(p, N);
     }
     Geodesic shoot(const SurfacePoint& point, const Vec3& tangent, double length) const {
-        Geodesic geodesic;
-        m_surface.shootGeodesic({point, tangent, length}, m_options.geodesics, geodesic);
-        return geodesic;
+        return SampleChecker::shoot(m_surface, point, tangent, length);
     }
-    /** Difference of two frames as places and directions; curvatures apart. */
-    double calcDifference(const DarbouxFrame& a, const DarbouxFrame& b) const {
-        return std::max({(a.x - b.x).norm() / m_size, (a.t - b.t).norm(), (a.N - b.N).norm(), (a.B - b.B).norm()});
-    }
+    double calcGrowth() const { return SampleChecker::calcGrowth(m_arc); }
 
     void checkFrame() {
         const DarbouxFrame& f = m_frame;
@@ -135,7 +168,7 @@ private:
         demand((m_arc.endPoint.p - Q.x).norm() / m_size, 1e-12, "6 (endPoint is where Q is)");
         const DarbouxFrame there = m_surface.calcFrame(m_arc.endPoint, Q.t);
         demand(calcDifference(there, Q), exact(), "6 (end has the frame of calcFrame)");
-        m_endCurvature = std::max({m_curvature, std::abs(there.kappaN), std::abs(there.kappaB), std::abs(there.tauG)});
+        m_endCurvature = std::max(m_curvature, calcUnitCurvature(there));
         demand(std::max({std::abs(there.kappaN - Q.kappaN), std::abs(there.tauG - Q.tauG),
                          std::abs(there.kappaB - Q.kappaB)}) /
                    m_endCurvature,
@@ -143,12 +176,6 @@ private:
         demand(m_arc.length == m_sample.length ? 0 : 1, 0, "6 (length is the one asked for)");
         demand((Q.x - m_frame.x).norm() / m_sample.length, 1 + exact(), "6 (unit speed: chord no longer than arc)");
         demand(std::abs(m_arc.a * m_arc.rDot - m_arc.aDot * m_arc.r - 1), exact() * calcGrowth(), "9 (Wronskian)");
-    }
-    /** Products of Jacobi fields: how much an error at the start may have grown at the end. */
-    double calcGrowth() const {
-        const Geodesic& g = m_arc;
-        return std::max(
-            {1.0, std::abs(g.a * g.rDot), std::abs(g.aDot * g.r), std::abs(g.r) / m_size, std::abs(g.aDot) * m_size});
     }
 
     void checkReversal() {
@@ -274,14 +301,94 @@ private:
     }
 
     const Surface& m_surface;
-    const SurfaceLawSample& m_sample;
-    const SurfaceLawOptions& m_options;
-    std::vector<std::string>& m_broken;
-    double m_size, m_curvature = 0, m_endCurvature = 0;
+    double m_curvature = 0, m_endCurvature = 0;
     SurfacePoint m_point;
     DarbouxFrame m_frame;
     Geodesic m_arc;
 };
+
+/** Checks at one sample whether two surfaces are the same one. */
+class SamenessChecker : private SampleChecker {
+public:
+    SamenessChecker(const Surface& first, const Surface& second, const SurfaceLawSample& sample,
+                    const SurfaceLawOptions& options, std::vector<std::string>& broken)
+        : SampleChecker(first.getDescription() + " and " + second.getDescription() + " are not the same: they break",
+                        first.getSize(), sample, options, broken),
+          m_first(first),
+          m_second(second) {}
+
+    void checkAll() {
+        checkPoints();
+        if (isBroken()) return;
+        m_firstFrame = m_first.calcFrame(m_firstPoint, m_sample.direction_S);
+        m_secondFrame = m_second.calcFrame(m_secondPoint, m_sample.direction_S);
+        checkHeights();
+        demand((m_firstFrame.N - m_secondFrame.N).norm(), exact(), "16 (outward normals equal)");
+        if (isBroken()) return;
+        checkCurvatures(m_firstFrame, m_secondFrame, exact(), "17 (", " equal)");
+        checkGeodesics();
+    }
+
+private:
+    void checkPoints() {
+        m_firstPoint = m_first.findSurfacePoint(m_sample.p_S);
+        m_secondPoint = m_second.findSurfacePoint(m_firstPoint.p);
+        demand((m_firstPoint.p - m_secondPoint.p).norm() / m_size, exact(),
+               "14 (points of the first lie on the second)");
+        const Vec3 p = m_second.findSurfacePoint(m_sample.p_S).p;
+        demand((p - m_first.findSurfacePoint(p).p).norm() / m_size, exact(),
+               "14 (points of the second lie on the first)");
+    }
+
+    /** Heights are the same to first order only, so what is even in the distance from the surface is left free. */
+    void checkHeights() {
+        Vec3 N;
+        const auto calcPair = [&](const Vec3& p) { return Vec2(m_first.calcHeight(p, N), m_second.calcHeight(p, N)); };
+        const auto demandOneSign = [&](const Vec2& pair) {
+            const bool isOnSurface = pair.cwiseAbs().maxCoeff() <= exact() * m_size;
+            demand(isOnSurface ? 0 : -pair[0] * pair[1], 0, "15 (heights of one sign)");
+        };
+        const double step = m_options.differenceStep * std::min(m_size, 1 / calcUnitCurvature(m_firstFrame));
+        const Vec2 above = calcPair(m_firstFrame.x + step * m_firstFrame.N),
+                   below = calcPair(m_firstFrame.x - step * m_firstFrame.N), slopes = (above - below) / (2 * step);
+        demandOneSign(above), demandOneSign(below), demandOneSign(calcPair(m_sample.p_S));
+        demand(std::abs(slopes[0] - slopes[1]), m_options.differenceTolerance, "15 (slopes of the heights equal)");
+    }
+
+    void checkCurvatures(const DarbouxFrame& a, const DarbouxFrame& b, double tolerance, const std::string& law,
+                         const std::string& suffix) {
+        const double limit = tolerance * calcUnitCurvature(a);
+        demand(std::abs(a.kappaN - b.kappaN), limit, law + "kappaN" + suffix);
+        demand(std::abs(a.tauG - b.tauG), limit, law + "tauG" + suffix);
+        demand(std::abs(a.kappaB - b.kappaB), limit, law + "kappaB" + suffix);
+    }
+
+    void checkGeodesics() {
+        const Geodesic g = shoot(m_first, m_firstPoint, m_firstFrame.t, m_sample.length);
+        const Geodesic h = shoot(m_second, m_secondPoint, m_firstFrame.t, m_sample.length);
+        const double limit = exact() * calcGrowth(g);
+        demand(g.converged && h.converged ? 0 : 1, 0, "18 (both geodesics converged)");
+        demand((g.Q.x - h.Q.x).norm() / m_size, limit, "18 (geodesics end at the same place)");
+        demand(calcDifference(g.Q, h.Q), limit, "18 (geodesics end in the same frame)");
+        checkCurvatures(g.Q, h.Q, limit, "18 (", " at the ends of geodesics equal)");
+        demand(std::abs(g.a - h.a), limit, "19 (a equal)");
+        demand(std::abs(g.aDot - h.aDot) * m_size, limit, "19 (a' equal)");
+        demand(std::abs(g.r - h.r) / m_size, limit, "19 (r equal)");
+        demand(std::abs(g.rDot - h.rDot), limit, "19 (r' equal)");
+        // With r = 0 at the end it is rounding that tells whether the conjugate point lies before it.
+        const bool isConjugateEnd = std::abs(g.r) <= limit * m_size;
+        demand(g.hasConjugatePoint == h.hasConjugatePoint || isConjugateEnd ? 0 : 1, 0, "19 (conjugate point)");
+    }
+
+    const Surface &m_first, &m_second;
+    SurfacePoint m_firstPoint, m_secondPoint;  ///< the same point
+    DarbouxFrame m_firstFrame, m_secondFrame;
+};
+
+void requireUsable(const SurfaceLawSample& sample) {
+    require(sample.p_S.allFinite() && sample.direction_S.allFinite() && sample.length > 0,
+            "surface laws: a sample needs a finite point and direction and a positive length");
+}
 
 }  // namespace
 
@@ -289,9 +396,19 @@ std::vector<std::string> checkSurfaceLaws(const Surface& surface, const std::vec
                                           const SurfaceLawOptions& options) {
     std::vector<std::string> broken;
     for (const SurfaceLawSample& sample : samples) {
-        require(sample.p_S.allFinite() && sample.direction_S.allFinite() && sample.length > 0,
-                "surface laws: a sample needs a finite point and direction and a positive length");
+        requireUsable(sample);
         LawChecker(surface, sample, options, broken).checkAll();
+    }
+    return broken;
+}
+
+std::vector<std::string> checkSameSurface(const Surface& first, const Surface& second,
+                                          const std::vector<SurfaceLawSample>& samples,
+                                          const SurfaceLawOptions& options) {
+    std::vector<std::string> broken;
+    for (const SurfaceLawSample& sample : samples) {
+        requireUsable(sample);
+        SamenessChecker(first, second, sample, options, broken).checkAll();
     }
     return broken;
 }

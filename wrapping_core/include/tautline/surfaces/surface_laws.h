@@ -1,5 +1,6 @@
 #pragma once
-/** What every Surface must obey, checked by differences and by independent routes: put your own through it. */
+/** What every Surface must obey, checked by differences and by independent routes, and whether two surfaces are the
+same one: put your own through it. */
 #include <string>
 #include <vector>
 
@@ -43,6 +44,24 @@ struct SurfaceLawOptions {
 
 @return a sentence for each law broken, with sample, value and limit; empty: all hold */
 std::vector<std::string> checkSurfaceLaws(const Surface& surface, const std::vector<SurfaceLawSample>& samples,
+                                          const SurfaceLawOptions& options = {});
+
+/** Checks that two surfaces are the same one, in two forms: implicit and parametric, yours and one of the library's, or
+before and after a change. At each sample:
+
+14. Points of each lie on the other.
+15. Heights near the surface have one sign, and the same slope across it.
+16. Outward normals are equal.
+17. Curvatures kappaN, tauG and kappaB along the sample's direction are equal.
+18. Geodesics from the same start end alike: place, frame, curvatures.
+19. Their Jacobi fields are equal, and both or neither have a conjugate point.
+
+Each may break its own laws and still agree: put one of them through checkSurfaceLaws() as well. Of a sample that breaks
+14 to 16 no more is said: the later laws follow. Lengths are relative to the size of `first`; the sizes may differ.
+
+@return a sentence for each law broken, with sample, value and limit; empty: all hold */
+std::vector<std::string> checkSameSurface(const Surface& first, const Surface& second,
+                                          const std::vector<SurfaceLawSample>& samples,
                                           const SurfaceLawOptions& options = {});
 
 }  // namespace tautline
