@@ -109,7 +109,7 @@ TEST(PathSolverDegenerate, OfConcentricSpheresTheLargerIsTouched) {
     for (const double second : {0.3, 0.499, 0.501, 0.7})
         for (const std::optional<Vec3>& hint : {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 1, 0))}) {
             SCOPED_TRACE(second);
-            Scene scene;
+            PathScene scene;
             scene.point(O).obstacle(std::make_shared<Sphere>(0.5), Pose(), hint);
             scene.obstacle(std::make_shared<Sphere>(second), Pose(), hint).point(I);
             const PathSolution path = scene.solve();
@@ -125,7 +125,7 @@ TEST(PathSolverDegenerate, OfConcentricSpheresTheLargerIsTouched) {
 /** Which of two equal spheres in one place is touched is not determined; that one is, and how long the string is. */
 TEST(PathSolverDegenerate, TheSameSphereTwiceIsWrappedOnce) {
     const Vec3 O(-3, 0.1, 0), I(2, 0.3, 0);
-    Scene scene;
+    PathScene scene;
     scene.point(O).obstacle(std::make_shared<Sphere>(0.5), Pose());
     scene.obstacle(std::make_shared<Sphere>(0.5), Pose()).point(I);
     const PathSolution path = scene.solve();
@@ -141,7 +141,7 @@ TEST(PathSolverDegenerate, StringOverOverlappingSpheresSideBySideBridgesTheGroov
         for (const std::optional<Vec3>& hint : {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 1, 0))}) {
             SCOPED_TRACE(distance);
             const Vec3 first(-distance / 2, 0, 0), second(distance / 2, 0, 0), O(-3, 0.1, 0), I(3, 0.1, 0);
-            Scene scene;
+            PathScene scene;
             scene.point(O).obstacle(std::make_shared<Sphere>(0.5), Pose(first), hint);
             scene.obstacle(std::make_shared<Sphere>(0.5), Pose(second), hint).point(I);
             const PathSolution path = scene.solve();
@@ -158,7 +158,7 @@ TEST(PathSolverDegenerate, StringOverOverlappingSpheresSideBySideBridgesTheGroov
 TEST(PathSolverDegenerate, LinesPastOverlappingSpheresAreStraight) {
     for (const double distance : {0.4, 1.0})
         for (const double y : {0.5, -0.6}) {
-            Scene scene;
+            PathScene scene;
             scene.point(Vec3(-3, y, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(-distance / 2, 0, 0)));
             scene.obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(distance / 2, 0, 0))).point(Vec3(3, y, 0));
             const PathSolution path = scene.solve();
@@ -174,7 +174,7 @@ TEST(PathSolverDegenerate, LinesPastOverlappingSpheresAreStraight) {
 /** A string between two ends above a plane is nearest to it at the lower end. */
 TEST(PathSolverPlane, TellsTheClearanceOfAStringAboveIt) {
     for (const double z : {0.5, 0.3}) {
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(-1, 0, 0.3)).obstacle(std::make_shared<Plane>(0.2), Pose(Vec3(0, 0, 0.1)));
         scene.point(Vec3(1, 0, z));
         const PathSolution path = scene.solve();
@@ -186,11 +186,11 @@ TEST(PathSolverPlane, TellsTheClearanceOfAStringAboveIt) {
 }
 
 /** A string over the plane and under the keel z = 2 x^2 + depth of a body that goes up without end: no way around. */
-Scene makeKeel(double depth, bool isPlaneFirst) {
+PathScene makeKeel(double depth, bool isPlaneFirst) {
     const auto keel = std::make_shared<ImplicitFunctionSurface>(
         makeImplicitSurface("keel", 0.2, [depth](auto x, auto /*y*/, auto z) { return 2.0 * x * x + depth - z; }));
     const auto plane = std::make_shared<Plane>(0.2);
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(-1, 0, 0.3));
     if (isPlaneFirst) scene.obstacle(plane, Pose());
     scene.obstacle(keel, Pose());
@@ -217,7 +217,7 @@ TEST(PathSolverPlane, StringUnderAKeelAboveItIsSolved) {
 through the plane. The two overlap then where the path passes, and the README says not_converged. */
 TEST(PathSolverPlane, StringDrawnThroughItByAKeelNamesThePlane) {
     for (const bool isPlaneFirst : {true, false}) {
-        const Scene scene = makeKeel(-0.1, isPlaneFirst);
+        const PathScene scene = makeKeel(-0.1, isPlaneFirst);
         const PathSolution path = scene.solve();
         EXPECT_EQ(path.status, PathStatus::NotConverged);
         const std::string text = explainStatus(scene.problem, scene.pose, path);
@@ -228,7 +228,7 @@ TEST(PathSolverPlane, StringDrawnThroughItByAKeelNamesThePlane) {
 }
 
 TEST(PathSolverPlane, PointBelowItIsNamedWithThePlane) {
-    Scene scene;
+    PathScene scene;
     const auto plane = std::make_shared<Plane>(0.2);
     scene.point(Vec3(-1, 0, 0.3)).obstacle(plane, Pose()).point(Vec3(0, 0, -0.1)).obstacle(plane, Pose());
     scene.point(Vec3(1, 0, 0.5));
@@ -241,7 +241,7 @@ TEST(PathSolverPlane, PointBelowItIsNamedWithThePlane) {
 
 /** A via point on the plane draws the string down to it: lifted off by 1e-7 sizes for either side (path_solver.h). */
 TEST(PathSolverPlane, PointOnItIsSolved) {
-    Scene scene;
+    PathScene scene;
     const auto plane = std::make_shared<Plane>(0.2);
     scene.point(Vec3(-1, 0, 0.3)).obstacle(plane, Pose()).point(Vec3(0, 0, 0)).obstacle(plane, Pose());
     scene.point(Vec3(1, 0, 0.5));

@@ -93,7 +93,7 @@ TEST(PathSolverStatus, ArcOutsideTheDomainIsReported) {
 }
 
 /** Asserts which condition is broken, at which element and where; and that the words say the same. */
-void expectBroken(const Scene& scene, const PathSolution& path, PathVerification::Condition condition, int element,
+void expectBroken(const PathScene& scene, const PathSolution& path, PathVerification::Condition condition, int element,
                   const Vec3& place_G, double tolerance) {
     const PathVerification verification = verifyPath(scene.problem, scene.pose, path);
     EXPECT_EQ(verification.condition, condition);
@@ -104,7 +104,7 @@ void expectBroken(const Scene& scene, const PathSolution& path, PathVerification
 }
 
 /** A path with one contact, whose arc is given. */
-PathSolution makeStart(const Scene& scene, int element, const GeodesicStart& start) {
+PathSolution makeStart(const PathScene& scene, int element, const GeodesicStart& start) {
     PathSolution path;
     path.contacts.resize(scene.problem.getNumElements());
     path.contacts[element].isTouched = true;
@@ -112,7 +112,7 @@ PathSolution makeStart(const Scene& scene, int element, const GeodesicStart& sta
     return path;
 }
 
-PathSolution solveFrom(const Scene& scene, PathSolution path) {
+PathSolution solveFrom(const PathScene& scene, PathSolution path) {
     PathSolverOptions options;
     options.allowsColdStart = false;
     PathSolver(options).solve(scene.problem, scene.pose, path);
@@ -132,7 +132,7 @@ TEST(PathVerificationPlace, PullsOutwardBeginsWhereTheCubeOfRhoIsClairautsSquare
     torus->shootGeodesic({equator, Vec3(0, sine, -cosine), kHalf}, {}, ahead);
     ASSERT_TRUE(back.Q.kappaN < 0 && ahead.Q.kappaN < 0);
     const Pose X(Eigen::AngleAxisd(0.4, Vec3(1, 2, 2).normalized()).toRotationMatrix(), Vec3(0.2, -0.1, 0.3));
-    Scene scene;
+    PathScene scene;
     scene.point(X * Vec3(back.Q.x - kStraight * back.Q.t)).obstacle(torus, X);
     scene.point(X * Vec3(ahead.Q.x + kStraight * ahead.Q.t));
     const PathSolution path = solveFrom(scene, makeStart(scene, 1, {back.endPoint, back.Q.t, 2 * kHalf}));
@@ -155,7 +155,7 @@ TEST(PathVerificationPlace, PenetrationOfItsOwnSurfaceIsWhereTheSegmentIsDeepest
     const Vec3 foot(3 - (3 - R) * cosine * cosine, 0, (3 - R) * sine * cosine);
     for (const double side : {-1.0, 1.0}) {  // the tube that is touched: the first, so that the segment out dips, or in
         SCOPED_TRACE(side);
-        Scene scene;
+        PathScene scene;
         scene.point(Vec3(-3, 0, 0)).obstacle(std::make_shared<Torus>(R, a), Pose()).point(Vec3(3, 0, 0));
         const PathSolution path = solveFrom(scene, makeStart(scene, 1, {{Vec3(side * R, 0, a)}, Vec3(1, 0, 0), 0.05}));
         EXPECT_EQ(path.status, PathStatus::NotMinimum);
@@ -170,7 +170,7 @@ TEST(PathVerificationPlace, PenetrationOfItsOwnSurfaceIsWhereTheSegmentIsDeepest
 same place. */
 TEST(PathVerificationPlace, PenetrationOfALiftedObstacleIsAtItsTop) {
     constexpr double kDepth = 1e-5;
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(-1, 0.6, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(-0.4, 0, 0)));
     scene.obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(0.3, 0, 0))).point(Vec3(1, 0.6, 0));
     PathSolution path = scene.solve();
@@ -183,7 +183,7 @@ TEST(PathVerificationPlace, PenetrationOfALiftedObstacleIsAtItsTop) {
 
 // Unrolled, the path is straight, so that half way up it is at the top: there it crosses the edge z = 0.2.
 TEST(PathVerificationPlace, OutsideDomainIsOnTheEdge) {
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(-1, 0, 0.1)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, 0.2));
     scene.point(Vec3(1, 0, 0.3));
     const PathSolution path = scene.solve();
@@ -195,7 +195,7 @@ TEST(PathVerificationPlace, OutsideDomainIsOnTheEdge) {
 
 /** From outside in: the path is outside from the arc's start on, and that is the place. */
 TEST(PathVerificationPlace, OutsideDomainFromTheStartIsThere) {
-    Scene scene;
+    PathScene scene;
     scene.point(Vec3(-1, 0, 0.3)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, 0.2));
     scene.point(Vec3(1, 0, 0.1));
     const PathSolution path = scene.solve();

@@ -8,6 +8,7 @@ and within a fixed count of shots, and what is no solution is explained. */
 #include <iostream>
 #include <map>
 
+#include "paths/obstacle_walk.h"
 #include "support/random_scene.h"
 #include "tautline/paths/path_explanation.h"
 #include "tautline/paths/path_kinematics.h"
@@ -28,6 +29,25 @@ bool isFinite(const PathSolution& path, const std::vector<Vec3>& points) {
         finite = finite && s.A.allFinite() && s.B.allFinite() && s.e.allFinite();
     for (const Vec3& p : points) finite = finite && p.allFinite();
     return finite;
+}
+
+/** Lowest of many heights of the straight segments over the obstacles that they pass, in sizes: found without the
+solver's own search for low places. */
+double calcLowestHeight(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+    constexpr int kSamples = 300;
+    double lowest = kInfinity;
+    visitObstaclesOnSegments(problem, pose, path, [&](int e, int in, int out) {
+        if (path.contacts[e].isSwitchedOff) return;
+        const Surface& surface = *problem.getElement(e).surface;
+        Vec3 N;
+        for (int segment = in; segment <= out; ++segment)
+            for (int i = 0; i <= kSamples; ++i) {
+                const StraightSegment& line = path.segments[segment];
+                const Vec3 D = line.A + i * (line.B - line.A) / kSamples;
+                lowest = std::min(lowest, surface.calcHeight(pose.X_GE[e].shiftBack(D), N) / surface.getSize());
+            }
+    });
+    return lowest;
 }
 
 /** True if the string comes to rest when the scene is moved a little, so that nothing symmetric is left. */
@@ -86,6 +106,7 @@ void runScenes(int count, unsigned firstSeed) {
         if (path.shots > mostShots) mostShots = path.shots, worstSeed = static_cast<int>(seed);
         if (path.status == PathStatus::Solved) {
             EXPECT_TRUE(verifyPath(problem, pose, path).isMinimum()) << "seed " << seed;
+            EXPECT_GT(calcLowestHeight(problem, pose, path), -1e-7) << "seed " << seed;
         }
         const std::string outcome = classify(problem, pose, path);
         EXPECT_EQ(outcome.find("unexplained"), std::string::npos) << "seed " << seed << ": " << outcome;

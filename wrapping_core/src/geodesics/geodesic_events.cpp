@@ -154,24 +154,30 @@ Peak findVertex(double before, double here, double after) {
     return {here + 0.5 * slope * slope / bend, slope / bend};
 }
 
-/** kappa_n at the peak that a parabola with this spacing suggests: with narrower ones, until they agree. */
-double refinePeak(const Surface& surface, const GeodesicStart& start, double spacing, Peak peak) {
-    constexpr int kRefinements = 3;
-    constexpr double kNarrower = 0.1;
+/** kappa_n at the peak near s: uphill in steps of the spacing, and by ever narrower parabolas. */
+double refinePeak(const Surface& surface, const GeodesicStart& start, double spacing, double s) {
+    constexpr int kRefinements = 12;
+    constexpr double kNarrower = 0.2, kNarrowest = 1e-3;  // of the first spacing
     Geodesic arc;
-    const auto calc = [&](double s) {
-        surface.shootGeodesic({start.point, start.tangent, s}, kAlongArc, arc);
+    const auto calc = [&](double at) {
+        const double inside = std::clamp(at, std::min(0.0, start.length), std::max(0.0, start.length));
+        surface.shootGeodesic({start.point, start.tangent, inside}, kAlongArc, arc);
         return arc.Q.kappaN;
     };
-    double largest = -kInfinity;
-    for (int i = 0; i < kRefinements; ++i) {
-        spacing *= kNarrower;
-        const double before = calc(peak.at - spacing), here = calc(peak.at), after = calc(peak.at + spacing);
-        largest = std::max({largest, before, here, after});
-        const Peak vertex = findVertex(before, here, after);
-        peak.at = std::clamp(peak.at + vertex.at * spacing, std::min(0.0, start.length), std::max(0.0, start.length));
+    const double end = spacing * kNarrowest;
+    double here = calc(s);
+    for (int i = 0; i < kRefinements && std::abs(spacing) > std::abs(end); ++i) {
+        const double before = calc(s - spacing), after = calc(s + spacing);
+        if (std::max(before, after) > here) {
+            s += before > after ? -spacing : spacing;
+            here = std::max(before, after);
+        } else {
+            s += findVertex(before, here, after).at * spacing;
+            here = std::max(here, calc(s));
+            spacing *= kNarrower;
+        }
     }
-    return std::max(largest, calc(peak.at));
+    return here;
 }
 
 }  // namespace
@@ -216,19 +222,21 @@ std::optional<GeodesicPlace> findDomainExit(const Surface& surface, const Geodes
 }
 
 double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const Geodesic& geodesic) {
+    constexpr double kMatters = -0.2;  // curvature in sizes below which an estimate between samples is enough
     const double largest = std::max({geodesic.P.kappaN, geodesic.Q.kappaN, geodesic.maxKappaN});
     const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * std::abs(start.length) / surface.getSize()));
+    const double spacing = start.length / pieces;
     ArcWalker walker(surface, start, kAlongArc, pieces);
-    Peak peak{largest, 0};
+    Peak peak{-kInfinity, 0};
     double before = geodesic.P.kappaN, here = walker.next().Q.kappaN;
     for (int i = 1; i < pieces; ++i) {
         const double after = i + 1 < pieces ? walker.next().Q.kappaN : geodesic.Q.kappaN;
         const Peak vertex = findVertex(before, here, after);
-        if (vertex.value > peak.value) peak = {vertex.value, (i + vertex.at) * start.length / pieces};
+        if (vertex.value > peak.value) peak = {vertex.value, (i + vertex.at) * spacing};
         before = here, here = after;
     }
-    if (peak.value == largest) return largest;
-    return refinePeak(surface, start, start.length / pieces, peak);
+    if (peak.value * surface.getSize() > kMatters) peak.value = refinePeak(surface, start, 0.5 * spacing, peak.at);
+    return std::max(largest, peak.value);
 }
 
 }  // namespace tautline

@@ -24,7 +24,7 @@ void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S
     }
     clearance.N = surface.calcFrame(clearance.C, e_S).N;
     surface.findLineClearance(A_S, e_S, clearance);
-    if (isOutside && !(clearance.distance > 0)) clearance.found = false;  // the far side of the surface
+    if (isOutside != (clearance.distance > 0)) clearance.found = false;  // another side of the surface
 }
 
 /** A line that has sunk so deep that it has no critical point on the kept side any longer, beyond the centres of
