@@ -126,6 +126,41 @@ TEST(PressureChanges, AreFoundInPairsCloserThanTheSamples) {
             .empty());
 }
 
+/** Largest of many normal curvatures along an arc. */
+double calcLargestOfMany(const Surface& surface, GeodesicStart start) {
+    constexpr int kPieces = 20000;
+    double largest = -kInfinity;
+    start.length /= kPieces;
+    Geodesic piece;
+    for (int i = 0; i < kPieces; ++i) {
+        surface.shootGeodesic(start, {}, piece);
+        largest = std::max({largest, piece.P.kappaN, piece.Q.kappaN});
+        start.point = piece.endPoint, start.tangent = piece.Q.t;
+    }
+    return largest;
+}
+
+// 2026-11-25: kappaN was looked at from place to place, and paths were called minima whose pressure changed in between.
+TEST(LargestNormalCurvature, IsThatOfManyPlacesAlongAnArcOverTheInnerEquator) {
+    const double r = 1;
+    for (const double R : {3.0, 2.0, 1.5})
+        for (const double excess : {1e-6, 1e-4, 1e-3, 1e-2})
+            for (const double length : {2.0, 2.5, 3.1})
+                for (const double offset : {-0.3, -0.11, 0.0, 0.07}) {
+                    const Torus torus(R, r);
+                    const double sine = std::sqrt(std::pow(R - r, 3) / R) * (1 + excess) / (R - r);
+                    Geodesic arc;
+                    torus.shootGeodesic(makeStart(torus, Vec3(R - r, 0, 0), Vec3(0, sine, std::sqrt(1 - sine * sine)),
+                                                  -(length / 2 + offset)),
+                                        {}, arc);
+                    const GeodesicStart start{arc.endPoint, arc.Q.t, length};
+                    torus.shootGeodesic(start, {}, arc);
+                    const double found = calcLargestNormalCurvature(torus, start, arc);
+                    EXPECT_NEAR(found, calcLargestOfMany(torus, start), 2e-8) << R << " " << excess;
+                    EXPECT_GT(found, 0);
+                }
+}
+
 TEST(PressureChanges, DoNotExistWhereCurvatureKeepsItsSign) {
     EXPECT_TRUE(
         findPressureChanges(Ellipsoid(Vec3(1, 0.5, 2)), makeStart(Sphere(1), Vec3(1, 0, 0), Vec3(0, 1, 1), 9)).empty());

@@ -6,6 +6,7 @@
 #include "support/random.h"
 #include "support/shapes.h"
 #include "tautline/paths/segment_clearance.h"
+#include "tautline/surfaces/offset_surface.h"
 
 namespace tautline::testing {
 namespace {
@@ -180,6 +181,9 @@ std::vector<Sunk> makeSunk() {
     return {{"sphere", std::make_shared<Sphere>(kTop), Pose()},
             {"cylinder", std::make_shared<Cylinder>(kTop), Pose()},
             {"ellipsoid", std::make_shared<Ellipsoid>(Vec3(0.6, kTop, 0.9)), Pose()},
+            {"parametric ellipsoid", std::make_shared<ParametricEllipsoid>(Vec3(0.6, kTop, 0.9)), Pose()},
+            {"layer", std::make_shared<OffsetSurface>(std::make_shared<Ellipsoid>(Vec3(0.5, kTop - 0.1, 0.8)), 0.1),
+             Pose()},
             {"torus", std::make_shared<Torus>(2, kTop), Pose(Vec3(0, -2, 0))}};
 }
 
@@ -204,19 +208,21 @@ TEST(SignedDistance, LinePassingCleanThroughInOneStepReadsNegativeOnTheKeptSide)
     }
 }
 
-/** Clearance after sinking to just below the bottom in `steps`, each continued from the one before. */
-double sinkThrough(const Sunk& sunk, int steps) {
+/** Clearance after sinking by some depth in `steps`, each continued from the one before. */
+double sinkThrough(const Sunk& sunk, double depth, int steps) {
     LineClearance clearance;
-    for (int k = 0; k <= steps; ++k) calcClearanceAt(sunk, kTop + 0.1 - 1.2 * k / steps, clearance);
+    for (int k = 0; k <= steps; ++k) calcClearanceAt(sunk, kTop + 0.1 - depth * k / steps, clearance);
     return clearance.distance;
 }
 
 // Symptom (2026-11-22): on the sphere the normal that is kept turned with the line about the centre, step by step,
-// and read +0.108 once the line was through.
+// and read +0.108 once the line was through. Symptom (2026-11-25): +1.9 on an ellipsoid, beyond its centres of
+// curvature.
 TEST(SignedDistance, LinePassingCleanThroughInManyStepsReadsNegativeOnTheKeptSide) {
     for (const Sunk& sunk : makeSunk())
-        for (int steps : {1, 2, 10, 1000})
-            EXPECT_LT(sinkThrough(sunk, steps), 0) << sunk.name << " in " << steps << " steps";
+        for (const double depth : {1.2, 3.0, 10.0})  // the first just below the bottom
+            for (const int steps : {1, 2, 3, 10, 1000})
+                EXPECT_LT(sinkThrough(sunk, depth, steps), 0) << sunk.name << " by " << depth << " in " << steps;
 }
 
 TEST(SignedDistance, TouchingLinesReadZero) {

@@ -158,10 +158,11 @@ Peak findVertex(double before, double here, double after) {
 double refinePeak(const Surface& surface, const GeodesicStart& start, double spacing, double s) {
     constexpr int kRefinements = 12;
     constexpr double kNarrower = 0.2, kNarrowest = 1e-3;  // of the first spacing
+    constexpr GeodesicOptions kFine{1e-10, 1000};         // what is next to zero is judged by its sign
     Geodesic arc;
     const auto calc = [&](double at) {
         const double inside = std::clamp(at, std::min(0.0, start.length), std::max(0.0, start.length));
-        surface.shootGeodesic({start.point, start.tangent, inside}, kAlongArc, arc);
+        surface.shootGeodesic({start.point, start.tangent, inside}, kFine, arc);
         return arc.Q.kappaN;
     };
     const double end = spacing * kNarrowest;
@@ -222,7 +223,7 @@ std::optional<GeodesicPlace> findDomainExit(const Surface& surface, const Geodes
 }
 
 double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const Geodesic& geodesic) {
-    constexpr double kMatters = -0.2;  // curvature in sizes below which an estimate between samples is enough
+    constexpr double kMatters = -0.05;  // curvature in sizes below which an estimate between samples is enough
     const double largest = std::max({geodesic.P.kappaN, geodesic.Q.kappaN, geodesic.maxKappaN});
     const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * std::abs(start.length) / surface.getSize()));
     const double spacing = start.length / pieces;

@@ -5,6 +5,8 @@
 
 #include "geodesics/arc_walker.h"
 #include "paths/hole_passages.h"
+#include "tautline/paths/contact_switch.h"
+#include "tautline/paths/segment_clearance.h"
 
 namespace tautline {
 namespace {
@@ -142,6 +144,25 @@ Vec3 findNextKnown(const PathProblem& problem, const PathPose& pose, int element
     return pose.X_GE.back().p;
 }
 
+/** Lifted obstacles that have come between the guides beside them are passed where they were: on the side that is kept,
+however far that is. */
+void guideOverSunken(const PathProblem& problem, const PathPose& pose, const PathSolution& previous,
+                     StartGuides& guides) {
+    Vec3 last_G = Vec3::Zero();
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const PathElement& element = problem.getElement(e);
+        if (pose.hasElement(e) && !element.isPoint() && guides[e].empty()) {
+            const auto next = std::find_if(guides.begin() + e, guides.end(), [](const auto& g) { return !g.empty(); });
+            LineClearance clearance = previous.contacts[e].clearance;
+            if (next == guides.end() || !clearance.keptN.allFinite()) continue;
+            findSegmentClearance(*element.surface, pose.X_GE[e], last_G, next->front(), clearance);
+            const bool isSunk = clearance.distance * clearance.scale < kContactTolerance;
+            if (isSunk && clearance.keptC.p.allFinite()) guides[e] = {pose.X_GE[e] * clearance.keptC.p};
+        }
+        if (!guides[e].empty()) last_G = guides[e].back();
+    }
+}
+
 }  // namespace
 
 StartCourse calcHintedCourse(const PathProblem& problem, const PathPose& pose) {
@@ -186,6 +207,7 @@ StartCourse calcPreviousCourse(const PathProblem& problem, const PathPose& pose,
         points.erase(std::remove_if(points.begin(), points.end(), [](const Vec3& p) { return !p.allFinite(); }),
                      points.end());
     }
+    guideOverSunken(problem, pose, previous, course.guides);
     return course;
 }
 

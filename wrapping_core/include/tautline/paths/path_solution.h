@@ -67,12 +67,13 @@ struct StringFault {
 problem (entries of points are unused) and is what a later solve starts from. */
 struct PathSolution {
     PathStatus status = PathStatus::NotConverged;
-    double length = kNaN;      ///< straight segments and arcs [m]
-    double pathError = kNaN;   ///< max |eps| (thesis Eqn. 4.3), dimensionless
-    int iterations = 0;        ///< Newton iterations of this solve
-    int shots = 0;             ///< geodesics shot in this solve
-    bool followsHints = true;  ///< false: no minimum was found where the hints lead when it was last laid anew
-    bool wasCold = false;      ///< the start was found anew (elastic string), not continued
+    double length = kNaN;     ///< straight segments and arcs [m]
+    double pathError = kNaN;  ///< max |eps| (thesis Eqn. 4.3), dimensionless
+    int iterations = 0;       ///< Newton iterations of this solve
+    int shots = 0;            ///< geodesics shot in this solve
+    bool followsHints =
+        true;              ///< false: when it was last laid anew, the path came to rest elsewhere than the hints say
+    bool wasCold = false;  ///< the start was found anew (elastic string), not continued
     std::vector<ObstacleContact> contacts;
     std::vector<StraightSegment> segments;
     StringFault fault;                 ///< where the elastic string led to no solution: why

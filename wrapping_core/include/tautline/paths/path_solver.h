@@ -22,7 +22,7 @@ public:
     /** Solves for path and contact set. An empty `path` is a cold start from the problem's hints; otherwise
     it is continued from, and found anew along it where that fails. A fixed point that lies on a surface (to 1e-7 of
     its size) is treated as lying 1e-7 sizes above it, where a straight segment still has a direction; that changes
-    the length by about 1e-10 sizes.
+    the length by about 1e-10 sizes where the path leaves along the surface, and by 1e-7 at most.
     @param pose   one pose per element
     @param path   in: start, from a solve of the same problem, or empty; out: the answer, finite and drawable whatever
     its status. In a pose that is not finite it stays as it was but for its status, NotConverged, and its path error
