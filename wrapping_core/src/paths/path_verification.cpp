@@ -88,15 +88,17 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
         const PathElement& element = problem.getElement(e);
         if (element.isPoint() || !pose.hasElement(e)) continue;
         const ObstacleContact& contact = path.contacts[e];
+        while (path.segments[segmentIn].toElement < e) ++segmentIn;
         if (contact.isTouched) {
-            while (path.segments[segmentIn].toElement != e) ++segmentIn;
             const StraightSegment &in = path.segments[segmentIn], &out = path.segments[segmentIn + 1];
             const Condition condition = verifyContact(*element.surface, pose.X_GE[e], contact, in, out, shortestArc);
             if (condition != Condition::None)
                 return {condition, e, findPlace(*element.surface, pose.X_GE[e], contact, condition, in, out)};
         } else if (!contact.isSwitchedOff &&
                    !(contact.clearance.distance * contact.clearance.scale >= kContactTolerance)) {
-            return {Condition::Penetration, e, pose.X_GE[e] * contact.clearance.C.p};
+            const StraightSegment& line = path.segments[segmentIn];
+            const double s = std::clamp(contact.clearance.lineCoordinate, 0.0, line.length);
+            return {Condition::Penetration, e, line.A + s * line.e};
         }
     }
     const PathStability stability = calcPathStability(problem, pose, path);

@@ -245,6 +245,10 @@ protected:
         constexpr int kMaxIterations = 50, kMaxHalvings = 10;
         const double size = getSize(), enough = 1e-8 * size;  // after such a step its square is left: rounding
         ParametricValue s = derived().calcParametric(uv, chart);
+        if (!s.x.allFinite()) {  // a start beyond a pole, where coordinates end
+            uv = derived().calcNearbyParameters(p_S, chart);
+            s = derived().calcParametric(uv, chart);
+        }
         for (int i = 0; i < kMaxIterations; ++i) {
             const Vec3 fromTarget = s.x - p_S;
             Vec2 step = calcNearestStep(s, fromTarget);
