@@ -7,8 +7,10 @@ and within a fixed count of shots, and what is no solution is explained. */
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <utility>
 
 #include "paths/obstacle_walk.h"
+#include "support/random.h"
 #include "support/random_scene.h"
 #include "tautline/paths/path_explanation.h"
 #include "tautline/paths/path_kinematics.h"
@@ -79,42 +81,85 @@ RandomScene::Kinds chooseKinds(unsigned seed) {
     return seed % 128 == 4 ? RandomScene::Kinds::Aligned : RandomScene::Kinds::Basic;
 }
 
-struct Slowest {
-    double seconds = 0;
-    unsigned seed = 0;
+/** Solves scene after scene and counts what they came to. */
+class SceneTally {
+public:
+    /** @param name   of the scene, where it fails */
+    void solve(const PathProblem& problem, const PathPose& pose, const std::string& name) {
+        SCOPED_TRACE(name);
+        PathSolution path;
+        const auto start = std::chrono::steady_clock::now();
+        EXPECT_NO_THROW(m_solver.solve(problem, pose, path));
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        m_slowest = std::max(m_slowest, {elapsed.count(), name});
+        m_mostShots = std::max(m_mostShots, {path.shots, name});
+        calcDrawingPoints(path, problem, pose, 0.3, m_points);
+        EXPECT_TRUE(isFinite(path, m_points)) << getName(path.status);
+        EXPECT_LE(path.shots, kMaxShotsPerElement * problem.getNumElements());
+        if (path.status == PathStatus::Solved) {
+            EXPECT_TRUE(verifyPath(problem, pose, path).isMinimum());
+            EXPECT_GT(calcLowestHeight(problem, pose, path), -1e-7);
+        }
+        const std::string outcome = classify(problem, pose, path);
+        EXPECT_EQ(outcome.find("unexplained"), std::string::npos) << outcome;
+        ++m_outcomes[outcome];
+    }
+    int count(const std::string& outcome) const {
+        const auto at = m_outcomes.find(outcome);
+        return at == m_outcomes.end() ? 0 : at->second;
+    }
+    void print() const {
+        std::cout << "most shots " << m_mostShots.first << " (" << m_mostShots.second << "), slowest solve "
+                  << m_slowest.first << " s (" << m_slowest.second << ")\n";
+        for (const auto& [outcome, number] : m_outcomes) std::cout << "  " << outcome << ": " << number << "\n";
+    }
+
+private:
+    PathSolver m_solver;
+    std::vector<Vec3> m_points;
+    std::map<std::string, int> m_outcomes;
+    std::pair<double, std::string> m_slowest;
+    std::pair<int, std::string> m_mostShots;
 };
 
 void runScenes(int count, unsigned firstSeed) {
-    std::map<std::string, int> outcomes;
-    PathSolver solver;
-    std::vector<Vec3> points;
-    Slowest slowest;
-    int mostShots = 0, worstSeed = 0;
+    SceneTally tally;
     for (int i = 0; i < count; ++i) {
         const unsigned seed = firstSeed + static_cast<unsigned>(i);
         PathProblem problem;
         PathPose pose;
         RandomScene(seed, chooseKinds(seed)).make(problem, pose);
-        PathSolution path;
-        const auto start = std::chrono::steady_clock::now();
-        EXPECT_NO_THROW(solver.solve(problem, pose, path)) << "seed " << seed;
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-        if (elapsed.count() > slowest.seconds) slowest = {elapsed.count(), seed};
-        calcDrawingPoints(path, problem, pose, 0.3, points);
-        EXPECT_TRUE(isFinite(path, points)) << "seed " << seed << ", " << getName(path.status);
-        EXPECT_LE(path.shots, kMaxShotsPerElement * problem.getNumElements()) << "seed " << seed;
-        if (path.shots > mostShots) mostShots = path.shots, worstSeed = static_cast<int>(seed);
-        if (path.status == PathStatus::Solved) {
-            EXPECT_TRUE(verifyPath(problem, pose, path).isMinimum()) << "seed " << seed;
-            EXPECT_GT(calcLowestHeight(problem, pose, path), -1e-7) << "seed " << seed;
-        }
-        const std::string outcome = classify(problem, pose, path);
-        EXPECT_EQ(outcome.find("unexplained"), std::string::npos) << "seed " << seed << ": " << outcome;
-        ++outcomes[outcome];
+        tally.solve(problem, pose, "seed " + std::to_string(seed));
     }
-    std::cout << count << " scenes from seed " << firstSeed << ", most shots " << mostShots << " (seed " << worstSeed
-              << "), slowest solve " << slowest.seconds << " s (seed " << slowest.seed << ")\n";
-    for (const auto& [outcome, number] : outcomes) std::cout << "  " << outcome << ": " << number << "\n";
+    std::cout << count << " scenes from seed " << firstSeed << ", ";
+    tally.print();
+}
+
+// Every surface of the tests, those of users and those under layers and maps among them, alone and before another one.
+TEST(RandomScenes, OfEverySurfaceEndWithAnExplainedStatusAndFiniteNumbers) {
+    const std::vector<testing::SurfaceCase> cases = testing::makeSurfaceCases();
+    testing::Random random(78);
+    SceneTally tally;
+    for (const testing::SurfaceCase& c : cases)
+        for (int i = 0; i < 12; ++i) {
+            const double reach = c.surface->getSize() * random.logUniform(2, 40);
+            PathProblem problem;
+            PathPose pose;
+            problem.addPoint("origin");
+            pose.X_GE.emplace_back(Vec3(-reach, 0, 0) + 0.3 * random.vector(reach));
+            const auto add = [&](const testing::SurfaceCase& added, const Vec3& p) {
+                problem.addObstacle(added.name, added.surface);
+                const Mat3 R = random.rotation();
+                pose.X_GE.emplace_back(R, p - R * added.centre + 0.5 * random.vector(added.surface->getSize()));
+            };
+            add(c, Vec3::Zero());
+            if (i % 3 == 0) add(cases[random.integer(0, static_cast<int>(cases.size()) - 1)], Vec3(0.5 * reach, 0, 0));
+            problem.addPoint("insertion");
+            pose.X_GE.emplace_back(Vec3(reach, 0, 0) + 0.3 * random.vector(reach));
+            tally.solve(problem, pose, c.name + " " + std::to_string(i));
+        }
+    tally.print();
+    EXPECT_GT(tally.count("solved"), 300);
 }
 
 /** Twenty thousand scenes, in parts that can run side by side. */

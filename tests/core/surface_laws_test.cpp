@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "support/random.h"
 #include "support/surface_cases.h"
 #include "tautline/error.h"
 #include "tautline/paths/path_solver.h"
@@ -344,6 +345,24 @@ TEST(SameSurface, NamesGeodesicsThatEndElsewhere) {
     const auto broken = checkSameSurface(Sphere(0.4), WrongSpeed(), {{Vec3(0, 0.5, 0), Vec3(1, 0, 0), 0.4}});
     EXPECT_EQ(findBrokenLaws(broken), (std::set<int>{18, 19})) << join(broken);
     EXPECT_TRUE(names(broken, "law 18 (geodesics end at the same place): 0.00999996 exceeds")) << join(broken);
+}
+
+// 2026-11-25: no number under a layer over a parametric capsule: a step led beyond the pole, where coordinates end.
+TEST(SurfaceHeights, AreFiniteFromNearAndFromFarAndUnderLayers) {
+    testing::Random random(kSeed);
+    std::vector<std::shared_ptr<const Surface>> surfaces;
+    for (const testing::SurfaceCase& c : testing::makeSurfaceCases()) {
+        surfaces.push_back(c.surface);
+        surfaces.push_back(std::make_shared<OffsetSurface>(c.surface, 0.3 * c.surface->getSize()));
+    }
+    for (const auto& surface : surfaces)
+        for (const double reach : {0.1, 1.0, 10.0, 100.0, 1000.0})
+            for (int i = 0; i < 20; ++i) {
+                const Vec3 p = reach * surface->getSize() * random.vector(1);
+                Vec3 N;
+                EXPECT_TRUE(std::isfinite(surface->calcHeight(p, N)) && N.allFinite()) << surface->getDescription();
+                EXPECT_TRUE(surface->findSurfacePoint(p).p.allFinite()) << surface->getDescription() << p.transpose();
+            }
 }
 
 TEST(SurfaceLawsReport, RefusesASampleWithoutLength) {
