@@ -34,10 +34,7 @@ struct SingleObstacle {
     }
     void solve() { PathSolver().solve(problem, pose, path); }
     const ObstacleContact& contact() const { return path.contacts[1]; }
-    HolePassage passage() const {
-        const StraightSegment& out = path.segments[contact().isTouched ? 1 : 0];
-        return calcHolePassage(*problem.getElement(1).surface, pose.X_GE[1], contact(), path.segments[0], out);
-    }
+    HolePassage passage() const { return calcHolePassage(problem, pose, path, 1, 0, contact().isTouched ? 1 : 0); }
 };
 
 TEST(StartSide, DecidesOnWhichSideAPathPasses) {
@@ -246,6 +243,36 @@ TEST(HolePassage, ReportsAPathThatLeavesItsRing) {
     scene.solve();
     EXPECT_FALSE(scene.contact().hasLeftHole);
     EXPECT_EQ(scene.path.status, PathStatus::Solved);
+}
+
+// 2026-11-25: nothing was said where the string touched, or left, the obstacle beside the ring in the same step.
+TEST(HolePassage, IsMissedAlsoWhereTheNeighbourIsTouchedOrLeftInTheSameStep) {
+    for (const bool isTouchedFirst : {false, true}) {
+        PathProblem problem;
+        problem.addPoint("origin");
+        problem.addObstacle("ring", std::make_shared<Torus>(1, 0.2));
+        const int cylinder = problem.addObstacle("cylinder", std::make_shared<Cylinder>(0.2));
+        problem.addPoint("insertion");
+        const Mat3 alongY = Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()).toRotationMatrix();
+        const Pose near(alongY, Vec3(0.15, 0, 1.5)), far(alongY, Vec3(0.5, 0, 1.5));
+        PathPose pose;
+        pose.X_GE = {Pose(Vec3(0, 0.1, -3)), Pose(), isTouchedFirst ? near : far, Pose(Vec3(0.1, 0, 3))};
+        PathSolution path = solvePath(problem, pose);
+        ASSERT_EQ(path.contacts[1].passage.count, 1);
+        ASSERT_EQ(path.contacts[cylinder].isTouched, isTouchedFirst);
+        PathSolverOptions options;
+        options.allowsColdStart = false;
+        pose.X_GE[cylinder] = isTouchedFirst ? far : near;
+        PathSolver(options).solve(problem, pose, path);
+        EXPECT_FALSE(path.contacts[1].hasLeftHole);
+        ASSERT_EQ(path.contacts[cylinder].isTouched, !isTouchedFirst);
+        pose.X_GE[cylinder] = isTouchedFirst ? near : far;
+        pose.X_GE[1].p = Vec3(0, 2, 0);  // and away
+        PathSolver(options).solve(problem, pose, path);
+        EXPECT_TRUE(path.contacts[1].hasLeftHole) << isTouchedFirst;
+        EXPECT_EQ(path.contacts[cylinder].isTouched, isTouchedFirst);
+        EXPECT_EQ(explainStatus(problem, pose, path), "a local minimum, but the path has left the hole of 'ring'");
+    }
 }
 
 // An end that moves around the ring takes the string out of it: nothing to report.

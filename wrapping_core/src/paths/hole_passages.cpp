@@ -30,23 +30,45 @@ private:
     Vec3 m_last = Vec3::Zero();
 };
 
-/** The chord of a short arc passes the hole where the arc does; a long one is followed. */
-void followArc(const Surface& surface, const ObstacleContact& contact, PassageCounter& counter) {
+/** The chord of a short arc passes the hole where the arc does; a long one is followed.
+@param surface, contact   whose arc it is
+@param X_HS               its frame in that of the surface with the hole */
+void followArc(const Surface& surface, const ObstacleContact& contact, const Pose& X_HS, PassageCounter& counter) {
     const double size = surface.getSize();
     const int pieces =
         contact.start.length > size ? 1 + static_cast<int>(std::min(1000.0, 2 * contact.start.length / size)) : 1;
+    counter.goTo(X_HS * contact.geodesic.P.x);
     ArcWalker walker(surface, contact.start, kRoughlyAlong, pieces);
-    for (int i = 1; i < pieces; ++i) counter.goTo(walker.next().Q.x);
-    counter.goTo(contact.geodesic.Q.x);
+    for (int i = 1; i < pieces; ++i) counter.goTo(X_HS * walker.next().Q.x);
+    counter.goTo(X_HS * contact.geodesic.Q.x);
 }
 
-/** Calls visit(e, passage) for every obstacle with a hole, with its passages in `path`. */
+/** The passage of a portion that reaches as far as one before it did, where the path still goes by its ends. */
+HolePassage calcComparablePassage(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int e,
+                                  const HolePassage& before, const HolePassage& own) {
+    if (!before.isKnown() || (before.from >= own.from && before.to <= own.to)) return own;
+    const auto find = [&](int StraightSegment::*end, int element) {
+        std::size_t k = 0;
+        while (k < path.segments.size() && path.segments[k].*end != element) ++k;
+        return k;
+    };
+    std::size_t first = find(&StraightSegment::fromElement, std::min(before.from, own.from));
+    std::size_t last = find(&StraightSegment::toElement, std::max(before.to, own.to));
+    if (first == path.segments.size()) first = find(&StraightSegment::fromElement, own.from);
+    if (last == path.segments.size()) last = find(&StraightSegment::toElement, own.to);
+    return calcHolePassage(problem, pose, path, e, first, last);
+}
+
+/** Calls visit(e, passage, isLeft) for every obstacle with a hole: its passages in `path`, and whether that has left
+the hole since the passages that are kept. */
 template <class Visitor>
 void visitHoles(const PathProblem& problem, const PathPose& pose, const PathSolution& path, Visitor visit) {
     visitObstaclesOnSegments(problem, pose, path, [&](int e, int in, int out) {
         const Surface& surface = *problem.getElement(e).surface;
-        if (hasHole(surface))
-            visit(e, calcHolePassage(surface, pose.X_GE[e], path.contacts[e], path.segments[in], path.segments[out]));
+        if (!hasHole(surface)) return;
+        const HolePassage passage = calcHolePassage(problem, pose, path, e, in, out), &kept = path.contacts[e].passage;
+        const HolePassage comparable = calcComparablePassage(problem, pose, path, e, kept, passage);
+        visit(e, passage, hasLeftHole(surface, kept, comparable));
     });
 }
 
@@ -57,23 +79,31 @@ bool hasHole(const Surface& surface) {
     return surface.countHoleCrossings(-axis, axis) != 0;
 }
 
-HolePassage calcHolePassage(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
-                            const StraightSegment& in, const StraightSegment& out) {
+HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int e,
+                            std::size_t first, std::size_t last) {
+    const Pose& X_GH = pose.X_GE[e];
     HolePassage passage;
-    passage.from = in.fromElement, passage.to = out.toElement;
-    passage.A_S = X_GS.shiftBack(in.A), passage.B_S = X_GS.shiftBack(out.B);
-    PassageCounter counter(surface, passage);
+    passage.from = path.segments[first].fromElement, passage.to = path.segments[last].toElement;
+    passage.A_S = X_GH.shiftBack(path.segments[first].A), passage.B_S = X_GH.shiftBack(path.segments[last].B);
+    PassageCounter counter(*problem.getElement(e).surface, passage);
     counter.start(passage.A_S);
-    if (contact.isTouched) {
-        counter.goTo(contact.geodesic.P.x);
-        followArc(surface, contact, counter);
+    for (std::size_t k = first; k < last; ++k) {
+        const int between = path.segments[k].toElement;
+        const PathElement& element = problem.getElement(between);
+        if (element.isPoint()) {
+            counter.goTo(X_GH.shiftBack(path.segments[k].B));
+            continue;
+        }
+        const Pose& X_GS = pose.X_GE[between];
+        const Pose X_HS(X_GH.R.transpose() * X_GS.R, X_GH.shiftBack(X_GS.p));
+        followArc(*element.surface, path.contacts[between], X_HS, counter);
     }
     counter.goTo(passage.B_S);
     return passage;
 }
 
 bool hasLeftHole(const Surface& surface, const HolePassage& before, const HolePassage& after) {
-    if (!before.isKnown() || before.from != after.from || before.to != after.to) return false;
+    if (!before.isKnown()) return false;
     return surface.countHoleCrossings(before.A_S, after.A_S) + after.count +
                surface.countHoleCrossings(after.B_S, before.B_S) - before.count !=
            0;
@@ -82,9 +112,9 @@ bool hasLeftHole(const Surface& surface, const HolePassage& before, const HolePa
 bool hasRightPassages(const PathProblem& problem, const PathPose& pose, const PassageRule& rule,
                       const PathSolution& path) {
     bool isRight = true;
-    visitHoles(problem, pose, path, [&](int e, const HolePassage& passage) {
+    visitHoles(problem, pose, path, [&](int e, const HolePassage& passage, bool isLeft) {
         if (rule.counts.empty())
-            isRight = isRight && !hasLeftHole(*problem.getElement(e).surface, path.contacts[e].passage, passage);
+            isRight = isRight && !isLeft;
         else if (rule.counts[e] != PassageRule::kAny)
             isRight = isRight && passage.count == rule.counts[e];
     });
@@ -92,9 +122,9 @@ bool hasRightPassages(const PathProblem& problem, const PathPose& pose, const Pa
 }
 
 void updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) {
-    visitHoles(problem, pose, path, [&](int e, const HolePassage& passage) {
+    visitHoles(problem, pose, path, [&](int e, const HolePassage& passage, bool isLeft) {
         ObstacleContact& contact = path.contacts[e];
-        contact.hasLeftHole = hasLeftHole(*problem.getElement(e).surface, contact.passage, passage);
+        contact.hasLeftHole = isLeft;
         if (isConverged && !contact.hasLeftHole) contact.passage = passage;
     });
 }

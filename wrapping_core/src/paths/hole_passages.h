@@ -11,13 +11,13 @@ namespace tautline {
 /** True if the z axis of S goes through a hole of the surface. */
 bool hasHole(const Surface& surface);
 
-/** Counts the passages of a solved path. @param in, out   the segments before and after the contact; the same one
-while the obstacle is lifted */
-HolePassage calcHolePassage(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
-                            const StraightSegment& in, const StraightSegment& out);
+/** Counts the passages through the hole of element e of a portion of a path, arcs between its segments included.
+@param first, last   indices of its segments, both included */
+HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int e,
+                            std::size_t first, std::size_t last);
 
 /** True if a string cannot have come from `before` to `after` without the ring going through it: the two, closed
-by the straight ways of their ends, are linked with the ring. False where the portions are not comparable. */
+by the straight ways of their ends, are linked with the ring. False where nothing is known of `before`. */
 bool hasLeftHole(const Surface& surface, const HolePassage& before, const HolePassage& after);
 
 /** How often a path has to go through each hole, along +z of S less against it. */

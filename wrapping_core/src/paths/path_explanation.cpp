@@ -160,11 +160,23 @@ std::string explainNotConverged(const PathProblem& problem, const PathPose& pose
     return text.str();
 }
 
+/** Empty if it goes through all holes as it did. */
+std::string explainLeftHole(const PathProblem& problem, const PathSolution& path) {
+    for (int e = 0; e < problem.getNumElements(); ++e)
+        if (path.contacts[e].hasLeftHole) return "the path has left the hole of " + quoteName(problem, e);
+    return "";
+}
+
+std::string explainSolved(const PathProblem& problem, const PathSolution& path) {
+    const std::string minimum = "a local minimum", left = explainLeftHole(problem, path);
+    if (!left.empty()) return minimum + ", but " + left;
+    return path.followsHints ? minimum : minimum + ", but not where the hints lead";
+}
+
 /** Of a path whose error vanishes: the condition that does not hold. */
 std::string explainNotMinimum(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
                               double shortestArc) {
-    for (int e = 0; e < problem.getNumElements(); ++e)
-        if (path.contacts[e].hasLeftHole) return "the path has left the hole of " + quoteName(problem, e);
+    if (const std::string left = explainLeftHole(problem, path); !left.empty()) return left;
     const PathVerification verification = verifyPath(problem, pose, path, shortestArc);
     if (verification.isMinimum()) return describe(verification, problem);
     const Vec3& place = verification.place_G;
@@ -184,7 +196,7 @@ std::string explainStatus(const PathProblem& problem, const PathPose& pose, cons
                           double shortestArc) {
     switch (path.status) {
         case PathStatus::Solved:
-            return path.followsHints ? "a local minimum" : "a local minimum, but not where the hints lead";
+            return explainSolved(problem, path);
         case PathStatus::EndInside:
             return describeEndInside(problem, pose, path);
         case PathStatus::NotConverged:

@@ -6,6 +6,7 @@
 namespace tautline {
 namespace {
 
+constexpr double kFirst = 1e-3;  ///< of a step from an end, in sizes: a segment may dip just beyond its tangent point
 constexpr int kPatience = 100;   ///< short steps after which they become twice as long: a segment near for long
 constexpr double kLevel = 1e-9;  ///< slopes that count as none: what tangency leaves
 
@@ -58,7 +59,8 @@ private:
 std::optional<LowPlace> findLowPlace(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
                                      double bound) {
     const LineHeights calc(surface, A_S, e_S);
-    double leastStep = surface.getSize() / 4;
+    const double size = surface.getSize();
+    double leastStep = size / 4;
     int numSteps = 0;
     std::optional<LowPlace> lowest;
     std::optional<Sample> down;  // the last sample from which the line goes down
@@ -72,7 +74,8 @@ std::optional<LowPlace> findLowPlace(const Surface& surface, const Vec3& A_S, co
         }
         if (!(here.s < length)) return lowest;
         if (++numSteps % kPatience == 0) leastStep *= 2;
-        const double step = std::max({leastStep, here.height / 4, (here.height - bound) / 2});
+        const double fromEnd = std::max(kFirst * size, 0.5 * std::min(here.s, length - here.s));
+        const double step = std::max({std::min(leastStep, fromEnd), here.height / 4, (here.height - bound) / 2});
         here = calc(std::min(length, here.s + step));
     }
 }
