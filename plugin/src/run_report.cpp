@@ -70,8 +70,8 @@ void printRunTable(const models::ModelSystem& model, const SimulationResult& res
         << format(100 * result.wrappingSeconds / std::max(result.seconds, 1e-9), 1) << " % in wrapping\n";
     for (std::size_t i = 0; i < paths.size(); ++i)
         if (const PathSummary& summary = result.summaries[i]; summary.slips > 0)
-            out << "note: " << paths[i].name << ": slipped " << summary.slips << " times, shorter by "
-                << format(summary.slippedLength, 1, true)
+            out << "note: " << paths[i].name << ": " << summary.slips << (summary.slips == 1 ? " slip" : " slips")
+                << ", shorter by " << format(summary.slippedLength, 1, true)
                 << " m in all; what its force had stored in that length is lost\n";
     for (std::size_t i = 0; i < paths.size(); ++i)
         if (const long numDegraded = result.summaries[i].statistics.numDegradedSteps; numDegraded > 0)

@@ -166,11 +166,15 @@ TEST(Program, SaysThatGnuplotIsMissingBeforeItSimulates) {
     EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
-/** One of our models with something in it replaced. */
-std::string writeEditedModel(const std::string& name, const std::string& from, const std::string& to) {
+using Edits = std::vector<std::pair<std::string, std::string>>;
+
+/** One of our models with some things in it replaced: the first place of each. */
+std::string writeEditedModel(const std::string& name, const Edits& edits) {
     std::string text = readAll(TAUTLINE_SOURCE_DIR "/models/" + name);
-    EXPECT_NE(text.find(from), std::string::npos);
-    text.replace(text.find(from), from.size(), to);
+    for (const auto& [from, to] : edits) {
+        EXPECT_NE(text.find(from), std::string::npos) << from;
+        text.replace(text.find(from), from.size(), to);
+    }
     const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / ("tautline_edited_" + name);
     std::ofstream(file) << text;
     return file.string();
@@ -178,8 +182,8 @@ std::string writeEditedModel(const std::string& name, const std::string& from, c
 
 TEST(Program, AStartThatLeadsNowhereEndsTheRun) {
     // The string laid through the torus the wrong way. (Laid along the ring it finds its way, 2026-11-25.)
-    const std::string file = writeEditedModel("four_surfaces_implicit.osim", "<direction>-0.4 0 1</direction>",
-                                              "<direction>0.4 0 -1</direction>");
+    const std::string file = writeEditedModel("four_surfaces_implicit.osim",
+                                              {{"<direction>-0.4 0 1</direction>", "<direction>0.4 0 -1</direction>"}});
     const std::filesystem::path folder = makeFolder("no_start");
     const Outcome outcome = runProgram("run " + file + " --out " + folder.string());
     EXPECT_EQ(outcome.exitCode, 1);
@@ -200,13 +204,45 @@ TEST(Program, TheLastOfTwoEqualOptionsCounts) {
 TEST(Program, DegradedStepsMakeItFailUnlessTheyAreAllowed) {
     // The rising paraboloid swallows the string's origin.
     const std::string file =
-        writeEditedModel("paraboloid.osim", "<location>-10 2.5 0</location>", "<location>-3 0.5 0</location>");
+        writeEditedModel("paraboloid.osim", {{"<location>-10 2.5 0</location>", "<location>-3 0.5 0</location>"}});
     const std::string command = "run " + file + " --duration 3 --out " + makeFolder("swallowed").string();
     const Outcome refused = runProgram(command);
     EXPECT_EQ(refused.exitCode, 3) << refused.text;
     EXPECT_NE(refused.text.find("steps without a verified minimum; first at "), std::string::npos) << refused.text;
     EXPECT_NE(refused.text.find("end_inside"), std::string::npos) << refused.text;
     EXPECT_EQ(runProgram(command + " --allow-degraded").exitCode, 0);
+}
+
+/** An ellipsoid that rises under a string, in its plane of symmetry, in place of the paraboloid. */
+const Edits kRisingEllipsoid = {{"TautlineWrapParaboloid name=", "WrapEllipsoid name="},
+                                {"<tautline_form>parametric</tautline_form>", ""},
+                                {"<a>14</a>", "<dimensions>0.5 0.2 0.5</dimensions>"},
+                                {"<b>6</b>", ""},
+                                {"</TautlineWrapParaboloid>", "</WrapEllipsoid>"},
+                                {"3.141592653589793 0 0", "0 0 0"},
+                                {"<amplitude>3</amplitude>", "<amplitude>0.5</amplitude>"},
+                                {"<omega>1.2566370614359172</omega>", "<omega>1</omega>"},
+                                {"<phase>-1.5707963267948966</phase>", "<phase>0</phase>"},
+                                {"<offset>-0.5</offset>", "<offset>-0.6</offset>"},
+                                {"<location>-10 2.5 0</location>", "<location>-1 0 0</location>"},
+                                {"<location>10 -1.5 1</location>", "<location>1 0 0</location>"}};
+
+TEST(Program, ASlipIsARowOfTheEventsAndALineOfTheReport) {
+    const std::string file = writeEditedModel("paraboloid.osim", kRisingEllipsoid);
+    const std::filesystem::path folder = makeFolder("slip");
+    const Outcome outcome = runProgram("run " + file + " --duration 1.5 --out " + folder.string());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("note: string: 1 slip, shorter by"), std::string::npos) << outcome.text;
+    std::istringstream events(readAll(folder / "events.csv"));
+    std::string header, made, slipped;
+    std::getline(events, header), std::getline(events, made), std::getline(events, slipped);
+    EXPECT_NE(made.find(",touchdown"), std::string::npos) << made;
+    ASSERT_NE(slipped.find(",slipped"), std::string::npos) << slipped;
+    // The sideways field along the circle of radius 0.5, cos(s/c) from its top, comes to zero at the string's ends, m
+    // from the arc: tan(s/c) = c/m.
+    const double c = 0.2, y = 0.6 - 0.5 * std::sin(std::stod(slipped)), far = std::hypot(1, y);
+    const double half = 0.5 * (std::atan2(1, y) - std::acos(0.5 / far)), m = std::sqrt(far * far - 0.25);
+    EXPECT_NEAR(half / c, std::atan2(c, m), 1e-4);
 }
 
 TEST(DataProgram, SimulatesASecondOfTheRealArm) {
