@@ -64,6 +64,17 @@ TEST(LowPlace, IsNoneAtATangentEnd) {
     EXPECT_NEAR(across->height, 0, 1e-12);
 }
 
+TEST(LowPlace, EndsTheSearchOnLinesBeyondAllMeasure) {
+    const Torus torus(1, 0.2);
+    for (const double length : {1e8, 1e16, 1e30, 1e300})
+        for (const Vec3& e : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0.6, 0, 0.8)}) {
+            const Vec3 top(1, 0, 0.2);
+            const auto place = findLowPlace(torus, top, e, length, 0.2);
+            EXPECT_TRUE(!place || std::isfinite(place->height));
+            EXPECT_TRUE(std::isfinite(torus.findLowestPoint(top - length * e, e, length)));
+        }
+}
+
 /** A line above a lying ring that tilts. */
 PathScene makeTiltingRing(double tilt) {
     const Mat3 R = Eigen::AngleAxisd(tilt, Vec3::UnitY()).toRotationMatrix();

@@ -213,6 +213,17 @@ TEST(PathSolverStatus, APoseThatIsNotFiniteIsNeverSolved) {
     scene.point(Vec3(-1, 0.2, 0)).obstacle(std::make_shared<Sphere>(0.4), Pose()).point(Vec3(1, 0.1, 0));
     const PathSolution good = scene.solve();
     ASSERT_EQ(good.status, PathStatus::Solved);
+    for (const double scale : {1e-300, 1e-160, 1e100, 1e160, 1e300}) {  // beyond what squares can be of
+        PathPose pose = scene.pose;
+        for (Pose& X_GE : pose.X_GE) X_GE.p *= scale;
+        PathProblem problem;
+        problem.addPoint("origin");
+        problem.addObstacle("sphere", std::make_shared<Sphere>(0.4 * scale));
+        problem.addPoint("insertion");
+        const PathSolution path = solvePath(problem, pose);
+        EXPECT_TRUE(path.status == PathStatus::NotConverged || std::isfinite(path.length)) << scale;
+        EXPECT_TRUE(path.status == PathStatus::NotConverged || path.contacts[1].isTouched) << scale;
+    }
     for (int e = 0; e < 3; ++e)
         for (const double bad : {kNaN, kInfinity})
             for (const bool isRotation : {false, true}) {

@@ -7,8 +7,9 @@ namespace tautline {
 namespace {
 
 constexpr double kFirst = 1e-3;  ///< of a step from an end, in sizes: a segment may dip just beyond its tangent point
-constexpr int kPatience = 100;   ///< short steps after which they become twice as long: a segment near for long
-constexpr double kLevel = 1e-9;  ///< slopes that count as none: what tangency leaves
+constexpr double kRounding = 1e-9;  ///< of the length, so that a step is one
+constexpr int kPatience = 100;      ///< short steps after which they become twice as long: a segment near for long
+constexpr double kLevel = 1e-9;     ///< slopes that count as none: what tangency leaves
 
 /** A point of the line: its height and, within the accuracy of heights, the slope of that along the line. */
 struct Sample {
@@ -74,7 +75,7 @@ std::optional<LowPlace> findLowPlace(const Surface& surface, const Vec3& A_S, co
         }
         if (!(here.s < length)) return lowest;
         if (++numSteps % kPatience == 0) leastStep *= 2;
-        const double fromEnd = std::max(kFirst * size, 0.5 * std::min(here.s, length - here.s));
+        const double fromEnd = std::max({kFirst * size, kRounding * length, 0.5 * std::min(here.s, length - here.s)});
         const double step = std::max({std::min(leastStep, fromEnd), here.height / 4, (here.height - bound) / 2});
         here = calc(std::min(length, here.s + step));
     }
