@@ -1,6 +1,8 @@
 /** Report on a folder of wrapping scenes with verified answers: `scenes FOLDER [--out FILE] [--no-hints]`. */
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <map>

@@ -324,7 +324,6 @@ void Cable::applyBodyForces(const State& state, Real tension, SimTK::Vector_<Spa
 }
 
 void Cable::applyMobilityForces(const State& state, Real tension, SimTK::Vector& mobilityForces) const {
-    get().getPath(state, "Cable::applyMobilityForces()");
     get().addMobilityForces(state, tension, mobilityForces, "Cable::applyMobilityForces()");
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "tautline/paths/path_following.h"
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/paths/path_stability.h"
+#include "tautline/paths/path_verification.h"
 #include "tautline/paths/single_contact.h"
 #include "tautline/simbody/conversions.h"
 

@@ -1,9 +1,14 @@
 #pragma once
 #include <Simbody.h>
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "cable_counters.h"
 #include "cable_elements.h"
 #include "cable_path_state.h"
+#include "tautline/simbody/cable.h"
 
 namespace tautline {
 

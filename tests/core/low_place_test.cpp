@@ -107,13 +107,16 @@ TEST(LowPlace, ARingThatTiltsInOneStepIsTouchedOnTheSideThatWasNotWatched) {
 // 2026-11-25: solved, straight through: 400 samples, each 25 sizes from the next.
 TEST(LowPlace, ABodyIsMetByLinesFromTenThousandSizesAway) {
     Random random(5);
+    int solved = 0;
     for (int i = 0; i < 40; ++i) {
         const Vec3 e = random.vector(1).normalized(), middle = random.vector(0.3);
         PathScene scene;
         scene.point(middle - 1e4 * e).obstacle(std::make_shared<Capsule>(1, 2), Pose()).point(middle + 1e4 * e);
         const PathSolution path = scene.solve();
         EXPECT_TRUE(path.contacts[1].isTouched || path.status != PathStatus::Solved) << i;
+        if (path.status == PathStatus::Solved) ++solved;
     }
+    EXPECT_GE(solved, 36);
 }
 
 // 2026-11-25: the string was on the other side of an elliptic cylinder that rose by two sizes in one step, and passed

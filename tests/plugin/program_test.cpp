@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "storage_file.h"
 #include "support/run_program.h"
@@ -175,7 +178,9 @@ std::string writeEditedModel(const std::string& name, const Edits& edits) {
         EXPECT_NE(text.find(from), std::string::npos) << from;
         text.replace(text.find(from), from.size(), to);
     }
-    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / ("tautline_edited_" + name);
+    // Tests run side by side.
+    const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / (test + "_" + name);
     std::ofstream(file) << text;
     return file.string();
 }

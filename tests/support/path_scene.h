@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/paths/path_solver.h"

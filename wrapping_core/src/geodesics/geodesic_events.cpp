@@ -173,8 +173,8 @@ double refinePeak(const Surface& surface, const GeodesicStart& start, double spa
             s += before > after ? -spacing : spacing;
             here = std::max(before, after);
         } else {
-            s += findVertex(before, here, after).at * spacing;
-            here = std::max(here, calc(s));
+            const double vertex = s + findVertex(before, here, after).at * spacing, there = calc(vertex);
+            if (there > here) s = vertex, here = there;
             spacing *= kNarrower;
         }
     }
@@ -228,7 +228,8 @@ double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& s
     const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * std::abs(start.length) / surface.getSize()));
     const double spacing = start.length / pieces;
     ArcWalker walker(surface, start, kAlongArc, pieces);
-    Peak peak{-kInfinity, 0};
+    Peak peak =
+        geodesic.P.kappaN > geodesic.Q.kappaN ? Peak{geodesic.P.kappaN, 0.0} : Peak{geodesic.Q.kappaN, start.length};
     double before = geodesic.P.kappaN, here = walker.next().Q.kappaN;
     for (int i = 1; i < pieces; ++i) {
         const double after = i + 1 < pieces ? walker.next().Q.kappaN : geodesic.Q.kappaN;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kStringPush = 0.1;  ///< the first one of a string that goes beyond a conjugate point, in sizes
 constexpr int kMaxStringPushes = 6;  ///< each twice the one before
 constexpr int kMaxOtherSides = 4;    ///< obstacles that are tried from the other side
-/** Geodesics shot in a solve after which no further string leads to a search: what is found takes half as many. */
+/** Geodesics shot after which no further search begins: scenes that are solved need half as many at most. */
 constexpr int kMaxShotsPerElement = 20000;
 
 /** Nothing but a point at most: what leads to no minimum there may on another side. */

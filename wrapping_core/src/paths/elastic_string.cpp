@@ -110,6 +110,7 @@ void ElasticString::relax(const PathProblem& problem, double fineness, double to
         if (i % kSweepsPerMesh == 0) {
             remesh(problem, fineness);
             updatePortions(problem);
+            forgetHeights();
         }
         const double move = sweep(problem, relaxation, i % 2 == 0);
         // Plain steps first, while the string falls into place; then over-relaxation for the long waves.
@@ -191,8 +192,6 @@ void ElasticString::remesh(const PathProblem& problem, double fineness) {
     m_nodes.swap(nodes);
     m_isFixed.swap(isFixed);
     m_room.assign(m_nodes.size(), m_extent);
-    m_travel.assign(m_nodes.size(), 0);
-    for (Hold& hold : m_holds) hold.seen.assign(m_nodes.size(), SeenHeight());
     m_stiffness.resize(m_nodes.size());
     for (std::size_t k = 0; k + 1 < m_nodes.size(); ++k)
         m_stiffness[k] = 1 / std::max(least * 1e-3, (m_nodes[k + 1] - m_nodes[k]).norm());
@@ -244,27 +243,36 @@ double ElasticString::sweep(const PathProblem& problem, double relaxation, bool 
     return largest;
 }
 
+void ElasticString::forgetHeights() {
+    m_travel.assign(m_nodes.size(), 0);
+    for (Hold& hold : m_holds) {
+        hold.seenFrom = hold.portionBegin;
+        hold.seen.assign(std::max(0, hold.portionEnd - hold.portionBegin + 1), SeenHeight());
+    }
+}
+
 void ElasticString::moveNode(int node, const Vec3& x) {
     m_travel[node] += (x - m_nodes[node]).norm();
     m_nodes[node] = x;
 }
 
-/** Moves a node out of the obstacles that act on it and notes the contacts. A height changes by no more than the node
-travels: far above a surface it need not be asked for in every sweep. */
+/** Moves a node out of the obstacles that act on it and notes the contacts. A height changes by about as much as the
+node travels: far above a surface it need not be asked for in every sweep. */
 void ElasticString::pushOut(const PathProblem& problem, int node, double& room) {
     for (std::size_t i = findFirstHold(node); i < m_holds.size() && m_holds[i].portionBegin < node; ++i) {
         Hold& hold = m_holds[i];
         if (hold.isSwitchedOff) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
         const double size = surface.getSize();
-        SeenHeight& seen = hold.seen[node];
-        if (const double moved = m_travel[node] - seen.travel; moved < kTrusted * seen.height) {
-            room = std::min(room, size + seen.height - moved);
+        SeenHeight* const seen = hold.findSeen(node);
+        const double moved = seen ? m_travel[node] - seen->travel : kInfinity;
+        if (seen && moved < kTrusted * seen->height) {
+            room = std::min(room, size + seen->height - moved);
             continue;
         }
         Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
         const double height = surface.calcHeight(p_S, N_S);
-        seen = {height, m_travel[node]};
+        if (seen) *seen = {height, m_travel[node]};
         ++m_numHeights;
         room = std::min(room, size + std::max(0.0, height));
         if (height > 0) continue;

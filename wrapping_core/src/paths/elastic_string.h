@@ -48,7 +48,12 @@ private:
         int from = -1, to = -1;                ///< fixed nodes that bound its strand
         int portionBegin = 0, portionEnd = 0;  ///< nodes on which it may act, inclusive
         bool isSwitchedOff = false;
-        std::vector<SeenHeight> seen;  ///< per node
+        int seenFrom = 0;              ///< the first node of these
+        std::vector<SeenHeight> seen;  ///< per node of the portion that this mesh began with
+        SeenHeight* findSeen(int node) {
+            const int at = node - seenFrom;
+            return at >= 0 && at < static_cast<int>(seen.size()) ? &seen[at] : nullptr;
+        }
         bool touches() const { return first >= 0; }
     };
 
@@ -60,6 +65,7 @@ private:
     double sweep(const PathProblem& problem, double relaxation, bool isForward);
     std::size_t findFirstHold(int node) const;
     double calcRoom(const PathProblem& problem, const Vec3& x, int node);
+    void forgetHeights();
     void moveNode(int node, const Vec3& x);
     void pushOut(const PathProblem& problem, int node, double& room);
     double calcHeight(const PathProblem& problem, const Hold& hold, int node) const;

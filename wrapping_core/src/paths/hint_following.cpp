@@ -1,6 +1,8 @@
 #include "paths/hint_following.h"
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 #include <vector>
 
 #include "geodesics/arc_walker.h"
@@ -33,25 +35,15 @@ double calcTurning(const std::vector<Vec3>& points) {
     return turning;
 }
 
-bool follows(std::monostate, const ObstacleContact&, const std::vector<Vec3>&) {
-    return true;
-}
-bool follows(const PassNear&, const ObstacleContact&, const std::vector<Vec3>&) {
-    return true;  // how near is not said
-}
-bool follows(const ThreadHole&, const ObstacleContact&, const std::vector<Vec3>&) {
-    return true;
-}
-
-bool follows(const PassOnSide& hint, const ObstacleContact& contact, const std::vector<Vec3>& points) {
+bool isOnSide(const PassOnSide& hint, const ObstacleContact& contact, const std::vector<Vec3>& points) {
     const Vec3& there = contact.isTouched ? points[points.size() / 2] : contact.clearance.C.p;
     return !(hint.direction_S.dot(there) < 0);
 }
 
 /** The angle nearest to the hint's would be off by half a turn at most; the path's neighbours may stand elsewhere than
 those that the hint was laid between. */
-bool follows(const WindAround& hint, const ObstacleContact&, const std::vector<Vec3>& points) {
-    return std::abs(calcTurning(points) - 2 * kPi * hint.turns) < 1.5 * kPi;
+bool turnsAsOften(const WindAround& hint, const std::vector<Vec3>& points) {
+    return std::abs(calcTurning(points) - 2 * kPi * hint.turns) < 1.2 * kPi;
 }
 
 }  // namespace
@@ -61,11 +53,13 @@ bool turnsAsHinted(const PathProblem& problem, const PathPose& pose, const PathS
     visitObstaclesOnSegments(problem, pose, path, [&](int e, int in, int out) {
         const PathElement& element = problem.getElement(e);
         const ObstacleContact& contact = path.contacts[e];
-        if (contact.isSwitchedOff || std::holds_alternative<std::monostate>(element.hint)) return;
+        const auto* side = std::get_if<PassOnSide>(&element.hint);
+        const auto* winding = std::get_if<WindAround>(&element.hint);
+        if (contact.isSwitchedOff || !(side || winding)) return;
         const std::vector<Vec3> points =
             calcPassingPoints(*element.surface, pose.X_GE[e], contact, path.segments[in], path.segments[out]);
-        isAsHinted =
-            isAsHinted && std::visit([&](const auto& hint) { return follows(hint, contact, points); }, element.hint);
+        if (side && !isOnSide(*side, contact, points)) isAsHinted = false;
+        if (winding && !turnsAsOften(*winding, points)) isAsHinted = false;
     });
     return isAsHinted;
 }

@@ -32,9 +32,11 @@ private:
 
 /** The chord of a short arc passes the hole where the arc does; a long one is followed.
 @param surface, contact   whose arc it is
-@param X_HS               its frame in that of the surface with the hole */
-void followArc(const Surface& surface, const ObstacleContact& contact, const Pose& X_HS, PassageCounter& counter) {
-    const double size = surface.getSize();
+@param X_HS               its frame in that of the surface with the hole
+@param holeSize           of that surface [m] */
+void followArc(const Surface& surface, const ObstacleContact& contact, const Pose& X_HS, double holeSize,
+               PassageCounter& counter) {
+    const double size = std::min(surface.getSize(), holeSize);
     const int pieces =
         contact.start.length > size ? 1 + static_cast<int>(std::min(1000.0, 2 * contact.start.length / size)) : 1;
     counter.goTo(X_HS * contact.geodesic.P.x);
@@ -96,7 +98,7 @@ HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, co
         }
         const Pose& X_GS = pose.X_GE[between];
         const Pose X_HS(X_GH.R.transpose() * X_GS.R, X_GH.shiftBack(X_GS.p));
-        followArc(*element.surface, path.contacts[between], X_HS, counter);
+        followArc(*element.surface, path.contacts[between], X_HS, problem.getElement(e).surface->getSize(), counter);
     }
     counter.goTo(passage.B_S);
     return passage;

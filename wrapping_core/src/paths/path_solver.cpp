@@ -70,7 +70,7 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     if (!begin(givenPose, path)) return;
     const PathPose& pose = calcLiftedPose(problem, givenPose);
     switchOffEnclosing(problem, pose, path);
-    const bool isConverged = findKeptPath(problem, pose, path);
+    const bool isConverged = findKeptPath(problem, pose, path) && std::isfinite(path.length);
     updateClearances(problem, pose, path);
     watchNearestPlaces(problem, pose, path);
     updatePassages(problem, pose, isConverged, path);
@@ -89,7 +89,7 @@ bool PathSolver::begin(const PathPose& pose, PathSolution& path) const {
 }
 
 /** The pose with every fixed point that lies on a surface of its strand lifted off by kEndHeight: the straight
-segment there would have no length, and no direction. The length changes by the power 3/2 of that height. */
+segment there would have no length, and no direction. The length changes by that height at most. */
 const PathPose& PathSolver::calcLiftedPose(const PathProblem& problem, const PathPose& pose) {
     PathPose& lifted = m_workspace->liftedPose;
     bool isLifted = false;

@@ -84,11 +84,12 @@ Vec3 findPlace(const Surface& surface, const Pose& X_GS, const ObstacleContact& 
 PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
                             double shortestArc) {
     int segmentIn = 0;
+    const int lastSegment = static_cast<int>(path.segments.size()) - 1;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const PathElement& element = problem.getElement(e);
         if (element.isPoint() || !pose.hasElement(e)) continue;
         const ObstacleContact& contact = path.contacts[e];
-        while (path.segments[segmentIn].toElement < e) ++segmentIn;
+        while (segmentIn < lastSegment && path.segments[segmentIn].toElement < e) ++segmentIn;
         if (contact.isTouched) {
             const StraightSegment &in = path.segments[segmentIn], &out = path.segments[segmentIn + 1];
             const Condition condition = verifyContact(*element.surface, pose.X_GE[e], contact, in, out, shortestArc);
@@ -96,6 +97,7 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
                 return {condition, e, findPlace(*element.surface, pose.X_GE[e], contact, condition, in, out)};
         } else if (!contact.isSwitchedOff &&
                    !(contact.clearance.distance * contact.clearance.scale >= kContactTolerance)) {
+            if (lastSegment < 0) return {Condition::Penetration, e};  // a pose that is not finite leaves no path
             const StraightSegment& line = path.segments[segmentIn];
             const double s = std::clamp(contact.clearance.lineCoordinate, 0.0, line.length);
             return {Condition::Penetration, e, line.A + s * line.e};

@@ -61,13 +61,13 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
     const bool knowsSide = kept.N.allFinite() && kept.C.p.allFinite();
     if (knowsSide) surface.findLineClearance(A_S, e_S, kept);
     if (!kept.found) {
-        findFreshClearance(surface, A_S, e_S, length, surface.findLowestPoint(A_S, e_S, length), kept);
+        const double lowest = surface.findLowestPoint(A_S, e_S, length);
+        findFreshClearance(surface, A_S, e_S, length, lowest, kept);
         if (knowsSide) staySunk(surface, A_S, e_S, length, kept);
+        if (!kept.found) takeHeight(surface, A_S, e_S, lowest, kept);
     }
     // Eqn. 6.3 puts D on the infinite line: past an end, the height of that end is what counts.
-    if (!kept.found)
-        takeHeight(surface, A_S, e_S, surface.findLowestPoint(A_S, e_S, length), kept);
-    else if (!(kept.lineCoordinate >= 0 && kept.lineCoordinate <= length))
+    if (kept.found && !(kept.lineCoordinate >= 0 && kept.lineCoordinate <= length))
         takeHeight(surface, A_S, e_S, kept.lineCoordinate < 0 ? 0 : length, kept);
     const bool isClear = kept.distance > 0 || !kept.keptN.allFinite();
     if (isClear) kept.keptC = kept.C, kept.keptN = kept.N;

@@ -31,7 +31,7 @@ Vec3 makeCylindrical(double radius, double azimuth, double z) {
 }
 
 /** Where a ray from far outside towards the z axis of S, at this azimuth and height, meets the surface: no step is
-longer than the height there. From a ray that passes by, the surface point under its start. */
+longer than half the height there. From a ray that passes by, the surface point under its start. */
 Vec3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
     constexpr int kMaxSteps = 200;
     const double size = surface.getSize(), least = 1e-3 * size;
@@ -41,7 +41,7 @@ Vec3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
         const Vec3 p = makeCylindrical(radius, azimuth, z);
         const double height = surface.calcHeight(p, N);
         if (!(height > least)) return surface.findSurfacePoint(p).p;
-        radius -= height;
+        radius -= height / 2;
     }
     return surface.findSurfacePoint(makeCylindrical(kFar * size, azimuth, z)).p;
 }
@@ -154,7 +154,7 @@ void guideOverSunken(const PathProblem& problem, const PathPose& pose, const Pat
         if (pose.hasElement(e) && !element.isPoint() && guides[e].empty()) {
             const auto next = std::find_if(guides.begin() + e, guides.end(), [](const auto& g) { return !g.empty(); });
             LineClearance clearance = previous.contacts[e].clearance;
-            if (next == guides.end() || !clearance.keptN.allFinite()) continue;
+            if (next == guides.end() || previous.contacts[e].isSwitchedOff || !clearance.keptN.allFinite()) continue;
             findSegmentClearance(*element.surface, pose.X_GE[e], last_G, next->front(), clearance);
             const bool isSunk = clearance.distance * clearance.scale < kContactTolerance;
             if (isSunk && clearance.keptC.p.allFinite()) guides[e] = {pose.X_GE[e] * clearance.keptC.p};

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kFirst = 1e-3;  ///< of a step from an end, in sizes: a segment may dip just beyond its tangent point
 constexpr double kRounding = 1e-9;  ///< of the length, so that a step is one
-constexpr int kPatience = 100;      ///< short steps after which they become twice as long: a segment near for long
+constexpr int kPatience = 100;      ///< steps after which the least one becomes twice as long
 constexpr double kLevel = 1e-9;     ///< slopes that count as none: what tangency leaves
 
 /** A point of the line: its height and, within the accuracy of heights, the slope of that along the line. */

@@ -14,7 +14,8 @@ struct LowPlace {
 be there: a tangent end is no place where the segment comes near the surface again.
 
 Heights are taken to change by no more than twice the way along the line, so that places far above the bound are passed
-in long steps; minima nearer to each other than a quarter of the surface's size or of their height may be missed.
+in long steps. Minima nearer to each other than a quarter of the surface's size or of their height may be missed, and on
+a segment of more than a hundred steps those nearer than a few such quarters.
 @param length   of the segment [m] */
 std::optional<LowPlace> findLowPlace(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
                                      double bound);

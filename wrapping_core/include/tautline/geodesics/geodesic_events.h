@@ -25,8 +25,8 @@ are found if kappaN dips visibly between its samples. */
 std::vector<GeodesicPlace> findPressureChanges(const Surface& surface, const GeodesicStart& start,
                                                const GeodesicOptions& options = {});
 
-/** The largest kappaN along the arc, of its ends and of places at most a fifth of the surface's size apart: where it is
-positive a string would lift. */
+/** The largest kappaN along the arc: where it is positive a string would lift. It is looked for in places at most a
+fifth of the surface's size apart, and between them where pressure nearly vanishes. */
 double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const Geodesic& geodesic);
 
 /** Where the geodesic first leaves the domain of its surface: the start if that is outside, nothing if it stays inside

@@ -64,7 +64,7 @@ public:
     virtual void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const;
 
     /** Coordinate s in [0, length] at which the segment A + s e is lowest over the surface: where to look for
-    its clearance. By default the lowest of all minima farther apart than a quarter of the surface's size. */
+    its clearance. By default the lowest of the ends and of all minima that are not next to each other. */
     virtual double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const;
 
     /** The function f behind an implicit surface, the x(u, v) behind a parametric one, for checks of their derivatives.
