@@ -47,6 +47,19 @@ TEST(StartSide, DecidesOnWhichSideAPathPasses) {
     }
 }
 
+// 2026-11-25: on the wrong side, and not following, where the direction had a part along the axis.
+TEST(StartSide, IsTakenOnALongSurfaceAlsoAskew) {
+    const Vec3 A(-3, 0.1, 0), B(3, -0.4, 0.2), centre(1.9, 0.05, 0);
+    for (const double alongAxis : {0.0, 0.1, 0.3, 0.45, 1.0, -0.5}) {
+        const PassOnSide hint{Vec3(0, 1, alongAxis)};
+        const SingleObstacle scene(std::make_shared<Cylinder>(0.25), hint, A - centre, B - centre);
+        EXPECT_EQ(scene.path.status, PathStatus::Solved);
+        EXPECT_TRUE(scene.path.followsHints) << alongAxis;
+        ASSERT_TRUE(scene.contact().isTouched) << alongAxis;
+        EXPECT_GT(scene.contact().geodesic.P.x.y(), 0) << alongAxis;
+    }
+}
+
 TEST(StartSide, LeavesALineAloneThatIsClearOnThatSide) {
     const Vec3 A(-3, 1.5, 0), B(3, 1.5, 0);
     const SingleObstacle above(std::make_shared<Sphere>(1), PassOnSide{Vec3(0, 1, 0)}, A, B);
@@ -273,6 +286,24 @@ TEST(HolePassage, IsMissedAlsoWhereTheNeighbourIsTouchedOrLeftInTheSameStep) {
         EXPECT_EQ(path.contacts[cylinder].isTouched, isTouchedFirst);
         EXPECT_EQ(explainStatus(problem, pose, path), "a local minimum, but the path has left the hole of 'ring'");
     }
+}
+
+// 2026-11-25: each later step looked for the way back in vain, for up to a second, and might end at no minimum at all.
+TEST(HolePassage, IsGivenUpWhereNothingLeadsBack) {
+    SingleObstacle scene(std::make_shared<Torus>(1, 0.2), {}, Vec3(0, 0.1, -3), Vec3(0.1, 0, 3));
+    ASSERT_EQ(scene.passage().count, 1);
+    // Turned edge on and aside, where a string through it would have to touch it twice.
+    scene.pose.X_GE[1] = Pose(Eigen::AngleAxisd(1.5, Vec3::UnitX()).toRotationMatrix(), Vec3(1.3, 0, 0));
+    scene.solve();
+    EXPECT_EQ(scene.path.status, PathStatus::Solved);
+    EXPECT_TRUE(scene.contact().hasLeftHole);
+    const double length = scene.path.length;
+    scene.pose.X_GE[1].p.y() = 0.01;
+    scene.solve();
+    EXPECT_EQ(scene.path.status, PathStatus::Solved);
+    EXPECT_FALSE(scene.path.wasCold);
+    EXPECT_TRUE(scene.contact().hasLeftHole);
+    EXPECT_NEAR(scene.path.length, length, 0.01);
 }
 
 // An end that moves around the ring takes the string out of it: nothing to report.

@@ -126,9 +126,14 @@ bool hasRightPassages(const PathProblem& problem, const PathPose& pose, const Pa
 void updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) {
     visitHoles(problem, pose, path, [&](int e, const HolePassage& passage, bool isLeft) {
         ObstacleContact& contact = path.contacts[e];
-        contact.hasLeftHole = isLeft;
+        contact.hasLeftHole = isLeft || (contact.hasLeftHole && !contact.passage.isKnown());
         if (isConverged && !contact.hasLeftHole) contact.passage = passage;
     });
+}
+
+void giveUpLostHoles(PathSolution& path) {
+    for (ObstacleContact& contact : path.contacts)
+        if (contact.hasLeftHole) contact.passage = HolePassage();
 }
 
 }  // namespace tautline

@@ -33,4 +33,8 @@ bool hasRightPassages(const PathProblem& problem, const PathPose& pose, const Pa
 path that did not converge, or has left the hole, are no course to keep: the ones before them stay. */
 void updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
 
+/** Where no search led through a hole again: later solves no longer look for the way, but still say that it was left.
+ */
+void giveUpLostHoles(PathSolution& path);
+
 }  // namespace tautline

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "paths/cold_search.h"
+#include "paths/hole_passages.h"
 #include "paths/obstacle_walk.h"
 #include "paths/path_cusps.h"
 #include "tautline/error.h"
@@ -39,6 +40,7 @@ struct PathSolver::Workspace {
     ContactSearch search;
     ColdSearch coldSearch;
     PathSolution previous;  ///< contacts of the path that is continued: a search that fails leaves no course behind
+    PathSolution loose;     ///< a continuation that is a minimum, but has left a hole
     PathPose liftedPose;
     std::vector<double> startLengths;  ///< of the arcs by element, while contacts are kept
 };
@@ -108,8 +110,9 @@ const PathPose& PathSolver::calcLiftedPose(const PathProblem& problem, const Pat
     return isLifted ? lifted : pose;
 }
 
-/** Continues the path; anew along it where that fails; then anew from the hints. Without a start and without leave to
-look for one, the straight line is the start. @return true if a verified minimum was found */
+/** Continues the path; anew along it where that fails; then anew from the hints. A continuation that has left a hole is
+the answer where none goes through it again. Without a start and without leave to look for one, the straight line is the
+start. @return true if a verified minimum was found */
 bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     ContactSearch& search = m_workspace->search;
     ColdSearch& coldSearch = m_workspace->coldSearch;
@@ -118,9 +121,16 @@ bool PathSolver::findPath(const PathProblem& problem, const PathPose& pose, Path
     switchOffEnclosing(problem, pose, path);
     if (!m_options.allowsColdStart) return search.findMinimum(problem, pose, PassageRule(), path);
     m_workspace->previous.contacts = path.contacts;
-    return (isContinued && (search.findMinimum(problem, pose, PassageRule(), path) ||
-                            coldSearch.findPathAlong(problem, pose, m_workspace->previous, path))) ||
-           coldSearch.findPathFromHints(problem, pose, path);
+    if (!isContinued) return coldSearch.findPathFromHints(problem, pose, path);
+    if (search.findMinimum(problem, pose, PassageRule(), path)) return true;
+    const bool isLoose = path.pathError <= m_options.pathErrorTolerance && verifyPath(problem, pose, path).isMinimum();
+    if (isLoose) m_workspace->loose = path;
+    const bool isFound = coldSearch.findPathAlong(problem, pose, m_workspace->previous, path) ||
+                         coldSearch.findPathFromHints(problem, pose, path);
+    if (!isLoose || (isFound && hasRightPassages(problem, pose, PassageRule(), path))) return isFound;
+    goBack(m_workspace->loose, path);
+    path.wasCold = true;
+    return true;
 }
 
 /** The path error may vanish at a cusp too: arcs are turned round there, to the length nearest that of the start. */
@@ -141,7 +151,7 @@ passed before, or the way through its hole, ends with that: an end may come out 
 void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
     Vec3 N_S;
     for (ObstacleContact& contact : path.contacts) {
-        if (contact.isSwitchedOff) contact.passage = HolePassage();
+        if (contact.isSwitchedOff) contact.passage = HolePassage(), contact.hasLeftHole = false;
         if (contact.isSwitchedOff && !contact.isTouched) contact.clearance = LineClearance();
         contact.isSwitchedOff = false;
     }
@@ -156,6 +166,7 @@ void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& 
 void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool isFound, PathSolution& path) const {
     const bool isConverged = path.pathError <= m_options.pathErrorTolerance && std::isfinite(path.length);
     updatePassages(problem, pose, isConverged, path);
+    if (path.wasCold) giveUpLostHoles(path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
     if (!isConverged) return;
     visitObstacles(problem, pose, [&](int e) {

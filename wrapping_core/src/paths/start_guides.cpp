@@ -63,6 +63,18 @@ void guide(const Surface& surface, const PassNear& hint, const Chord&, std::vect
     guides_S.push_back(surface.findSurfacePoint(hint.point_S).p);
 }
 
+/** The surface point under one that lies clear of it beside D: no farther out than it takes, since from far out along
+the axis of a long surface the way down would lead far along it. */
+Vec3 findPointOnSide(const Surface& surface, const Vec3& D, const Vec3& side) {
+    const double size = surface.getSize();
+    Vec3 N, beside = D;
+    for (double height = kThrough * size; height < kFar * size; height *= 2) {
+        beside = D + (height - side.dot(D)) * side;
+        if (surface.calcHeight(beside, N) > size) break;
+    }
+    return surface.findSurfacePoint(beside).p;
+}
+
 /** Nothing where the line is clear on the side that is asked for; else over the top of that side. */
 void guide(const Surface& surface, const PassOnSide& hint, const Chord& chord, std::vector<Vec3>& guides_S) {
     const Vec3 side = hint.direction_S.normalized(), step = chord.B_S - chord.A_S;
@@ -71,7 +83,7 @@ void guide(const Surface& surface, const PassOnSide& hint, const Chord& chord, s
     const Vec3 D = chord.A_S + surface.findLowestPoint(chord.A_S, e, length) * e;
     Vec3 N;
     if (surface.calcHeight(D, N) > 0 && side.dot(D) >= 0) return;
-    guides_S.push_back(surface.findSurfacePoint(D + (kFar * surface.getSize() - side.dot(D)) * side).p);
+    guides_S.push_back(findPointOnSide(surface, D, side));
 }
 
 void guide(const Surface& surface, const WindAround& hint, const Chord& chord, std::vector<Vec3>& guides_S) {

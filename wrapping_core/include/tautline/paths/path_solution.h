@@ -38,7 +38,7 @@ struct ObstacleContact {
     LineClearance clearance;     ///< in S; of the straight line that passes the surface while lifted
     int segment = -1;            ///< while lifted: index of that straight segment
     HolePassage passage;         ///< of surfaces that have a hole: the one that a continued path has to keep
-    bool hasLeftHole = false;    ///< the path no longer goes through the hole in that way
+    bool hasLeftHole = false;    ///< the path no longer goes through the hole in that way, and did not since
 };
 
 /** A straight segment between fixed points and arcs; A and B in ground. */
