@@ -166,8 +166,7 @@ TEST(PathVerificationPlace, PenetrationOfItsOwnSurfaceIsWhereTheSegmentIsDeepest
     }
 }
 
-/** The second of two spheres has come up from below the line, by so little that the path and the surface pass in the
-same place. */
+/** The second of two spheres has come up from below the line. */
 TEST(PathVerificationPlace, PenetrationOfALiftedObstacleIsOnThePath) {
     constexpr double kDepth = 0.05;
     PathScene scene;
@@ -181,11 +180,17 @@ TEST(PathVerificationPlace, PenetrationOfALiftedObstacleIsOnThePath) {
     expectBroken(scene, path, PathVerification::Condition::Penetration, 2, Vec3(0.3, 0.6, 0), 1e-9);
 }
 
+/** Over the short cylinder, up or down across its edge z = 0.2 at the top. */
+PathScene makeCrossingOfTheEdge(double zFrom, double zTo) {
+    PathScene scene;
+    scene.point(Vec3(-1, 0, zFrom)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, 0.2));
+    scene.point(Vec3(1, 0, zTo));
+    return scene;
+}
+
 // Unrolled, the path is straight, so that half way up it is at the top: there it crosses the edge z = 0.2.
 TEST(PathVerificationPlace, OutsideDomainIsOnTheEdge) {
-    PathScene scene;
-    scene.point(Vec3(-1, 0, 0.1)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, 0.2));
-    scene.point(Vec3(1, 0, 0.3));
+    const PathScene scene = makeCrossingOfTheEdge(0.1, 0.3);
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::LeftDomain);
     expectBroken(scene, path, PathVerification::Condition::OutsideDomain, 1, Vec3(0, 0.4, 0.2), 1e-9);
@@ -195,9 +200,7 @@ TEST(PathVerificationPlace, OutsideDomainIsOnTheEdge) {
 
 /** From outside in: the path is outside from the arc's start on, and that is the place. */
 TEST(PathVerificationPlace, OutsideDomainFromTheStartIsThere) {
-    PathScene scene;
-    scene.point(Vec3(-1, 0, 0.3)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, 0.2));
-    scene.point(Vec3(1, 0, 0.1));
+    const PathScene scene = makeCrossingOfTheEdge(0.3, 0.1);
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::LeftDomain);
     // The tangent from (-1, 0) touches at x = -0.4^2; height goes with length, 0.2 over the whole path of two straight
