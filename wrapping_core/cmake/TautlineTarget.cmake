@@ -5,22 +5,18 @@ if(PROJECT_IS_TOP_LEVEL)  # else these are the business of the project that we a
     if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
         set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
     endif()
-    # -O3 for all builds a fifth longer; tautline_optimize_fully() is for the sources that a warm step runs through.
-    set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
     set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 endif()
 
-# tautline_optimize_lightly(<sources>): for sources that run once, to build fast. They cannot share a precompiled
-# header with others.
-function(tautline_optimize_lightly)
-    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>"
-                                                       SKIP_PRECOMPILE_HEADERS ON)
-endfunction()
+# Optimization is CMake's own for the build type, -O3 in Release: a warm step is a tenth slower at -O2. What a user sets
+# in CMAKE_CXX_FLAGS_RELEASE or CMAKE_CXX_FLAGS holds for every file.
+string(STRIP "${CMAKE_CXX_FLAGS_RELEASE_INIT}" TAUTLINE_DEFAULT_RELEASE_FLAGS)
 
-# tautline_optimize_fully(<sources>): for those of a warm step, which is a tenth quicker so: mostly by inlining.
-function(tautline_optimize_fully)
-    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>"
-                                                       SKIP_PRECOMPILE_HEADERS ON)
+# tautline_optimize_lightly(<target>): for targets that take longer to compile than to run.
+function(tautline_optimize_lightly target)
+    if(CMAKE_CXX_FLAGS_RELEASE STREQUAL TAUTLINE_DEFAULT_RELEASE_FLAGS)
+        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
 endfunction()
 
 # tautline_target(<target>): call once for every library and program of ours.
@@ -29,6 +25,10 @@ function(tautline_target target)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                                              $<$<BOOL:${TAUTLINE_WERROR}>:-Werror>)
+    # A parent project that has chosen nothing gets a library that is fit for use.
+    if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES AND NOT CMAKE_CXX_FLAGS MATCHES "-O")
+        target_compile_options(${target} PRIVATE -O3 -DNDEBUG)
+    endif()
     if(TAUTLINE_SANITIZE)
         target_compile_options(${target} PRIVATE -fsanitize=${TAUTLINE_SANITIZE} -fno-omit-frame-pointer
                                                  -fno-sanitize-recover=all)
