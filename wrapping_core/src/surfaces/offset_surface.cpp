@@ -91,7 +91,7 @@ struct OffsetGeodesicEquations {
         y.head<5>() << Vec3::Zero(), foot.uv;
         Eigen::Matrix2d rates;  // columns: (u', v') along t and B; the inverse has |xu|, |xv| in its columns
         for (int i = 0; i < 2; ++i) {
-            Vec2 rate;
+            Vec2 rate = Vec2::Zero();
             base.calcCoordinateRates(foot, i == 0 ? below.t : below.B, rate);
             rates.col(i) = rate;
         }
