@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Draws the README's figure: a path over a cylinder, through a torus and over an ellipsoid, as SVG on standard output.
 Facets and pieces of the path are painted from the back to the front, so that what is nearer hides what is behind. */
 #include <algorithm>

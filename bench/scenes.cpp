@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Report on a folder of wrapping scenes with verified answers: `scenes FOLDER [--out FILE] [--no-hints]`. */
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Warm steps of the weave (tests/support/weave_scene.h), with counters; README.md says how to read them. */
 #include <benchmark/benchmark.h>
 

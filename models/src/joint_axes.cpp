@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "joint_axes.h"
 
 #include "tautline/simbody/conversions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/models/path_start.h"
 
 namespace tautline::models {

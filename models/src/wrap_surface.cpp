@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wrap_surface.h"
 
 #include "tautline/surfaces/cylinder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The `tautline` program: chooses the command, turns exceptions into one line. */
 #include <unistd.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** OpenSim's storage files (.sto): a header, a row of labels, rows of numbers; the first column is time. */
 #include <filesystem>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Tautline::simbody_host: Simbody as all code here must see it. Link this and not ${Simbody_LIBRARIES}.
 #
 # SimTK::CacheEntryInfo, which lies in every State and is handled by inline functions, has members that exist

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A forearm on a pin, held up by a muscle that wraps over a cylinder at the elbow.
 #include <Simbody.h>
 #include <tautline/simbody/cable.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/simbody/cable_constraint.h"
 
 #include <cmath>

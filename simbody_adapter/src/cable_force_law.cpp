@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/simbody/cable_force_law.h"
 
 #include "cable_force_impl.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/simbody/clearance_probe.h"
 
 #include "tautline/paths/segment_clearance.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "contact_event_handler.h"
 
 #include "cable_impl.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/simbody/moving_station.h"
 
 #include "tautline/error.h"

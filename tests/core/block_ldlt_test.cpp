@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Symmetric block-tridiagonal factorization against dense algebra. */
 #include "paths/block_ldlt.h"
 

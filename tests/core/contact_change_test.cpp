@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What derivatives of a length do where contact changes: the first are continuous, the second jump by a known amount.
  */
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The README's example for the core alone, run as a user would. */
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The Runge-Kutta pairs on equations whose solution is known. */
 #include "tautline/geodesics/dormand_prince.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Conjugate points, changes of pressure and exits from the domain along geodesics, against closed forms. */
 #include "tautline/geodesics/geodesic_events.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Geodesics: closed forms against the integrator, laws that hold on any surface, reference tables. */
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Derivatives of a geodesic's end frames under the four natural variations against central differences. */
 #include <gtest/gtest.h>
 

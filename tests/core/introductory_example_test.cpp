@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The introductory example of thesis Sec. 2.3.1, iterated by the core's geodesics and natural variations. */
 #include <gtest/gtest.h>
 

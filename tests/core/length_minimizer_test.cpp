@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The length, its derivatives along natural corrections, and its minimization over one contact set. */
 #include "paths/length_minimizer.h"
 

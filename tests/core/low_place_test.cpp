@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Where a straight line comes low over a surface: the search for it, and what a path makes of what it finds. */
 #include "surfaces/low_place.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Moment arms of a hinge and their derivatives, from a path's first and second derivatives by the poses. */
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Paths over implicit and parametric forms of the same obstacles, mixed too, are the same paths. */
 #include <gtest/gtest.h>
 

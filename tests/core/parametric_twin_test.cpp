@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Implicit and parametric forms of the same shape give the same answers, and geodesics through the poles of
 a chart are exact. */
 #include <gtest/gtest.h>

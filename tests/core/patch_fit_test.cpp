@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Patches: what they reproduce, how they fit, how they go on beyond their edges. */
 #include "tautline/surfaces/patch_fit.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Paths solved by hand. Path error 1e-11 and less leaves lengths exact to rounding: 1e-13 relative. */
 #include "tautline/paths/path_solver.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Degenerate scenes: an answer, finite, whatever it is; and the right one where it is known. */
 #include "tautline/paths/path_solver.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Jacobian of the path error against central differences of it, on chains that mix all surfaces. */
 #include "paths/path_error.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Elimination of the path error's Jacobian against dense algebra. */
 #include "paths/path_jacobian.h"
 

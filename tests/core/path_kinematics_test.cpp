@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Length rate, forces and moments of paths: balance and power at any path error, derivative of the length. */
 #include "tautline/paths/path_kinematics.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Input that is refused, with the name, the value and the limit. */
 #include "tautline/paths/path_solver.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Derivatives of a path with respect to the poses of its elements, against central differences. */
 #include "tautline/paths/path_sensitivity.h"
 

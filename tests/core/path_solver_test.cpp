@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Newton's method and the contact set, and the promises of the solver. */
 #include "tautline/paths/path_solver.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Where strings slip off, in closed form, and paths followed from pose to pose. */
 #include "tautline/paths/path_stability.h"
 

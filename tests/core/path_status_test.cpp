@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The meaning of each status, by its inequality. */
 #include "tautline/paths/path_solver.h"
 

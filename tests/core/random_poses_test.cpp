@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Random scenes (support/random_scene.h): every solve ends with a status, finite numbers
 and within a fixed count of shots, and what is no solution is explained. */
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Surfaces under linear maps: against shapes that they are, and refusals. The laws are in surface_laws_test. */
 #include "tautline/surfaces/scaled_surface.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Scenes with verified answers of others, read in place: static ones cold, moving ones with warm starts. */
 #include <gtest/gtest.h>
 

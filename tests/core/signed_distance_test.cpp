@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Clearance of a straight line over a surface: the thesis's examples and the side that is kept. */
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Where one arc no longer describes how a ring holds the string: the witness falls through zero there, and the status
 says so from there on. */
 #include "tautline/paths/single_contact.h"

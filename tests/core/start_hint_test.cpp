@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What a user may say about the first course of a path: side, winding, threading; and what a ring keeps. */
 #include <gtest/gtest.h>
 

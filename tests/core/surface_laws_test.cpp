@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Every surface of the project obeys the laws of surface_laws.h, and a wrong one is found out. */
 #include "tautline/surfaces/surface_laws.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The numbered properties of calcSurfaceMesh(), on every surface of the project. */
 #include "tautline/surfaces/surface_mesh.h"
 

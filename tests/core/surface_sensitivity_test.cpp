@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** First and second derivatives of a path's length by the poses of all elements, over every surface of the project,
 against differences of paths that are solved anew. */
 #include <gtest/gtest.h>

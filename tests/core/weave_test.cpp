@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The weave against the mean lengths that peers.md gives for it: values computed by others. */
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes geodesics.txt: geodesics with their Jacobi fields to 30 digits, by means that share nothing with
 the core: other equations, other integrator, 60-digit decimals of the standard library.
 

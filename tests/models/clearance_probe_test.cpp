@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Signed distances of models/paraboloid.osim against a minimization that knows nothing of Newton's method or charts,
 and how they go through touchdown. */
 #include "tautline/simbody/clearance_probe.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The same arm in two layouts, read in place from the reference data. */
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The walking models of the reference data: splines, conditional and moving points, couplers. */
 #include <cmath>
 #include <fstream>

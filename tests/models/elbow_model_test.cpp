@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Our own arm: models/elbow.osim. */
 #include <cmath>
 #include <iostream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Joint transforms against an evaluation that shares no code with the builder: Rodrigues' formula on plain arrays. */
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Muscles on cables over wrap objects: binding, lengths and moment arms. */
 #include "tautline/models/model_system.h"
 

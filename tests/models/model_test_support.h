@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Small models as text, and a built model with its system, for the tests of tautline_models. */
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Every refusal by its message: short edits of one good model, and the files of models/rejected. */
 #include <filesystem>
 #include <fstream>

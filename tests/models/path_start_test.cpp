@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The first path of models/four_surfaces_*.osim, from geodesics chosen by hand (thesis Sec. 8.3, Fig. 8.4). */
 #include <cmath>
 #include <iostream>

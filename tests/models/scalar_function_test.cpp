@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/models/scalar_function.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake -DCOMMANDS=<compile_commands.json> -DFLAG=<-O...> -P check_optimization.cmake: fails unless the last -O of every
 # compilation of the project's own libraries and tests, the one that holds, is the flag.
 cmake_minimum_required(VERSION 3.25)

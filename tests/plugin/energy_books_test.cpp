@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Energy of simulated models: what the drivers put in and the damping takes out is what changes. */
 #include <gtest/gtest.h>
 

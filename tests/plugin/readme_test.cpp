@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What the README shows is what the project does. */
 #include <gtest/gtest.h>
 
@@ -22,6 +23,13 @@ std::string readAll(const std::string& file) {
     return text.str();
 }
 
+/** A source without the line that names its license. */
+std::string readSource(const std::string& file) {
+    const std::string text = readAll(file), license = "// SPDX-License-Identifier: Apache-2.0\n";
+    EXPECT_EQ(text.rfind(license, 0), 0u) << file;
+    return text.substr(license.size());
+}
+
 /** Contents of the fenced blocks of a language. */
 std::vector<std::string> findBlocks(const std::string& text, const std::string& language) {
     std::vector<std::string> blocks;
@@ -37,8 +45,8 @@ std::vector<std::string> findBlocks(const std::string& text, const std::string& 
 TEST(Readme, ShowsTheExamplesThatAreCompiled) {
     const auto blocks = findBlocks(readAll(kRoot + "/README.md"), "cpp");
     ASSERT_EQ(blocks.size(), 2u);
-    EXPECT_EQ(blocks[0], readAll(kRoot + "/simbody_adapter/examples/wrapped_muscle.cpp"));
-    EXPECT_EQ(blocks[1], readAll(kRoot + "/wrapping_core/examples/over_a_cylinder.cpp"));
+    EXPECT_EQ(blocks[0], readSource(kRoot + "/simbody_adapter/examples/wrapped_muscle.cpp"));
+    EXPECT_EQ(blocks[1], readSource(kRoot + "/wrapping_core/examples/over_a_cylinder.cpp"));
 }
 
 TEST(Readme, ExampleHoldsTheForearmUp) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The simulations of thesis Sec. 8.2 and 8.3 as the program runs them. */
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** A cable of fixed length as a constraint: its derivatives, closed forms, and what a motion keeps. */
 #include "tautline/simbody/cable_constraint.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The same scenes through Simbody's own cable paths and through Tautline.
 
 Simbody 3.7's CablePath solves its path error to 1e-9 but integrates geodesics to a few millionths of their

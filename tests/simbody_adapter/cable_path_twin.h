@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** One scene built twice: through Simbody's own cable paths and through Tautline, each in a System of its own. */
 #include <iostream>

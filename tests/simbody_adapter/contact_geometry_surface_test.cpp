@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/simbody/contact_geometry_surface.h"
 
 #include <thread>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Ends of a string that go into an obstacle and come out of it. */
 #include <map>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Energy books: a mass on an elastic string over fixed obstacles keeps its energy through lift-offs and touchdowns;
 over driven ones it gains the work of the drivers, and loses what damping takes. */
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Contact events where integrators are careless: steps that go clean through an obstacle, loose accuracies,
 grazing motions. */
 #include <cstdio>

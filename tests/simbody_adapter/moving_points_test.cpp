@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Points that move on their bodies, and points that count only under a condition. */
 #include <cstdio>
 

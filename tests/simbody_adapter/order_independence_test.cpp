@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** An answer is a function of its State: not of what was tried before it, nor of what other States, Systems and
 threads do. All comparisons are bit by bit. */
 #include <algorithm>

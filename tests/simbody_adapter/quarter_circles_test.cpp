@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The planar chain of four quarter circles over two tori, an ellipsoid and a cylinder, whose answer is
 known in closed form: length 15 + pi/2 (1 + 1 + 1.5 + 2). */
 #include "adapter_scenes.h"

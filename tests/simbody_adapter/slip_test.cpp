@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Strings that slide round obstacles and slip off them. */
 #include <cstdio>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Counts allocations of the whole program. This header replaces the global operator new: include it in one
 source file of a program only, the one that counts. */

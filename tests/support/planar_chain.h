@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Length of a string in a plane around circles, each with a sense: closed form, for tests. */
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Random numbers, directions and poses from a fixed seed, which is printed where a test fails. */
 #include <gtest/gtest.h>

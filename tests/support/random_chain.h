@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Chains of random geodesics on shapes of all kinds, varied along their natural corrections for differences. */
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Random scenes of 1 to 6 surfaces over three decades of size, overlapping, out of order, with via points, and with
 degenerate ones crowded in. A seed gives the same scene on every machine. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Reads scene files (static.json, motion.json): scenes of obstacles with verified answers, whose format is
 described beside them. Shared by tests and benchmarks. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Solves scenes cold (static) or step by step with warm starts (moving) and judges the answers against the
 verified ones. Shared by the report program and the tests. */

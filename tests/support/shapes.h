@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** The four shapes of the core at several proportions, random geodesics on them, and shooting as a value. */
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Where the reference data of others stand: never copied into the project, read in place. */
 #include <cstdlib>

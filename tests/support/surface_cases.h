@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** All kinds of surface of the project with samples for the laws: random ones, and ones crowded where
 coordinates or curvatures are special. */

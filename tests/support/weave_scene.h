@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** The "weave": a path from (-1, 0, 0) to (n, 0, 0) over the even and under the odd ones of n moving obstacles
 at (i, c_i, 0). Shared by tests and benchmarks; described with its mean lengths in peers.md of the reference

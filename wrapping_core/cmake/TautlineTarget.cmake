@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What all targets of this project share: C++17, warnings, sanitizers on demand, installation.
 include(GNUInstallDirs)
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A string over a cylinder that moves: its length, the rate of that, and what it does to the cylinder.
 #include <tautline/paths/path_explanation.h>
 #include <tautline/paths/path_kinematics.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A half turn over a cylinder, solved by the installed core and, if it is there, by the installed adapter.
 #include <tautline/paths/path_solver.h>
 #include <tautline/surfaces/cylinder.h>

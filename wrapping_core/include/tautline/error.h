@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** The one exception of the core: bad input, refused at the border with the value in the message. */
 #include <sstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Vectors, matrices and rigid poses shared by the whole core. Nothing here computes wrapping. */
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** A chain is the path's fixed points and touched obstacles ("contacts") in order, with a straight segment between each
 and the next. All vectors in ground. */

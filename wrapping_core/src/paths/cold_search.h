@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "paths/contact_search.h"
 #include "paths/elastic_string.h"

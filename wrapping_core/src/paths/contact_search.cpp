@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "paths/contact_search.h"
 
 #include "paths/obstacle_walk.h"

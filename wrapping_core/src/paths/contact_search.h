@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "paths/hole_passages.h"
 #include "paths/length_minimizer.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** A coarse elastic string laid along a path and relaxed with one-sided contact: finds the contact set and
 the basin of the minimum where Newton-like steps from a poor guess do not. Milliseconds, not microseconds. */

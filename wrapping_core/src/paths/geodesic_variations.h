@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** The four natural variations of a geodesic (thesis Sec. 4.3): of its start point along t and B, of its direction, of
 its length: xi = (s_P [m], beta_P [m], theta [rad], l [m]). */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** How often a path goes through the holes of its obstacles: whether that is right, and what is kept of it. */
 #include <limits>

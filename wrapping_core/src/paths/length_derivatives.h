@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Length of a chain as a function of the natural corrections xi of its geodesics, and its derivatives. */
 #include <vector>

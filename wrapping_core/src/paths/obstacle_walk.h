@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Walks over the obstacles of a path in their order. */
 #include "tautline/paths/path_problem.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Path error and its Jacobian (thesis Sec. 4.2 to 4.4) for one contact set.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/paths/path_solver_options.h"
 
 #include "tautline/error.h"

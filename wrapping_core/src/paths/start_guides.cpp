@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "paths/start_guides.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/surfaces/ellipsoid.h"
 
 #include "surfaces/shape_checks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/surfaces/function_surface.h"
 
 #include "surfaces/shape_checks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/surfaces/polynomial_patch.h"
 
 #include "surfaces/shape_checks.h"

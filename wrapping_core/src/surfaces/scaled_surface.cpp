@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tautline/surfaces/scaled_surface.h"
 
 #include "tautline/error.h"

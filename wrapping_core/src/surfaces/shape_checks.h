@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Private: what constructors of shapes check and how they describe themselves. */
 #include <cmath>

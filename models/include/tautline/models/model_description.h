@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** A musculoskeletal model as plain data: what a model file says, without a multibody system.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Between SimTK's types and the core's: plain copies, no computing. */
 #include <SimTKcommon.h>

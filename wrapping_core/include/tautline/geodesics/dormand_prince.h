@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Steps of Runge-Kutta pairs of Dormand and Prince on fixed-size vectors, for autonomous right-hand sides.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Where along a geodesic something ends that a taut string needs: found by walking along it in short pieces and by
 root search between them, so for any surface and either sign of the length. */

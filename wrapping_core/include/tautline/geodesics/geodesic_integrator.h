@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Adaptive integration of a geodesic with its two Jacobi fields, shared by implicit and parametric
 surfaces. The surface's equations come as a template parameter, so that no call inside a step is virtual. */

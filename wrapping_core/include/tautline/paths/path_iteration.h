@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** The path iteration of the thesis from geodesics chosen by hand, with its errors on record. */
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** How a solved path answers to a motion of its elements: by the implicit function theorem on eps = 0, in one
 O(n) solve per motion. */

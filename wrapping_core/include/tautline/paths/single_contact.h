@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "tautline/paths/path_problem.h"
 #include "tautline/paths/path_solution.h"

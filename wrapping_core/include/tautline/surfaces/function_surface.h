@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Surfaces from functions that the user hands over, without writing a class. */
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Everything a Surface must answer, deduced from f(p) = 0 with gradient and Hessian (thesis Cha. 7). */
 #include <utility>

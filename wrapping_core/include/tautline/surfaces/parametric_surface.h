@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Everything a Surface must answer, deduced from x(u, v) with its first and second derivatives (thesis
 Sec. 3.2 to 3.4, 4.5). */

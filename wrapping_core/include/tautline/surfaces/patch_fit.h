@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Least-squares fits of patches to clouds of points (thesis Sec. 3.5, Fig. 3.9). */
 #include "tautline/surfaces/bspline_patch.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** What all fitted patches share: a rectangular domain, a smooth surface beyond it, heights, starts for Newton. */
 #include "tautline/surfaces/parametric_surface.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "tautline/surfaces/implicit_surface.h"
 #include "tautline/surfaces/parametric_twin.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Surfaces under a linear map: p = M q with q on the base surface, as models are scaled to subjects. A model that is
 scaled by the factors s along the axes of a body scales a surface whose frame S lies in the body by the rotation R_BS by

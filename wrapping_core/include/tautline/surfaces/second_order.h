@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** Numbers that carry their first and second derivatives by n variables through a formula (forward
 differentiation): exact but for rounding. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** What every Surface must obey, checked by differences and by independent routes, and whether two surfaces are the
 same one: put your own through it. */

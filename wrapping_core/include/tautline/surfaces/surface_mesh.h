@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** A picture of any surface: facets laid over it, found from nothing but its heights. */
 #include <array>

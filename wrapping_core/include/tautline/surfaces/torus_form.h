@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /** The equations that the two tori share. R: from the z axis to the tube's centre; a, b: semi-axes of the tube's
 section along the radius and along z; all in metres. */
