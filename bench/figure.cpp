@@ -47,7 +47,7 @@ void addSurface(const View& view, const Surface& surface, const Pose& X_GS, cons
                 facet.points.push_back(X_GS * p_S);
                 middle_S += p_S / 4;
             }
-            surface.calcHeight(middle_S, N_S);
+            surface.calcHeightAndNormal(middle_S, N_S);
             const double facing = std::abs((X_GS.R * N_S).dot(light));  // what is seen from inside is lit, too
             facet.nearness = view.calcNearness(X_GS * middle_S), facet.brightness = facing;
             shapes.push_back(facet);

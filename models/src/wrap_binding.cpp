@@ -31,14 +31,13 @@ struct SegmentInObject {
 SegmentInObject lookAtSegment(const Surface& surface, const SimTK::Transform& X_GW, const SimTK::Vec3& A_G,
                               const SimTK::Vec3& B_G) {
     SegmentInObject segment;
-    Vec3 N;
     const Vec3 A = toEigen(X_GW.shiftBaseStationToFrame(A_G)), B = toEigen(X_GW.shiftBaseStationToFrame(B_G));
     segment.A = A;
     segment.length = (B - A).norm();
     segment.e = segment.length > 0 ? Vec3((B - A) / segment.length) : Vec3(Vec3::UnitX());
     segment.lowest = surface.findLowestPoint(A, segment.e, segment.length);
-    segment.height = surface.calcHeight(A + segment.lowest * segment.e, N);
-    segment.hasEndInside = surface.calcHeight(A, N) < 0 || surface.calcHeight(B, N) < 0;
+    segment.height = surface.calcHeight(A + segment.lowest * segment.e);
+    segment.hasEndInside = surface.calcHeight(A) < 0 || surface.calcHeight(B) < 0;
     return segment;
 }
 

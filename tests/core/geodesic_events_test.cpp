@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Conjugate points, changes of pressure and exits from the domain along geodesics, against closed forms. */
-#include "tautline/geodesics/geodesic_events.h"
+#include "tautline/surfaces/geodesic_events.h"
 
 #include <gtest/gtest.h>
 

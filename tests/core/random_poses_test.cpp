@@ -42,12 +42,11 @@ double calcLowestHeight(const PathProblem& problem, const PathPose& pose, const 
     visitObstaclesOnSegments(problem, pose, path, [&](int e, int in, int out) {
         if (path.contacts[e].isSwitchedOff) return;
         const Surface& surface = *problem.getElement(e).surface;
-        Vec3 N;
         for (int segment = in; segment <= out; ++segment)
             for (int i = 0; i <= kSamples; ++i) {
                 const StraightSegment& line = path.segments[segment];
                 const Vec3 D = line.A + i * (line.B - line.A) / kSamples;
-                lowest = std::min(lowest, surface.calcHeight(pose.X_GE[e].shiftBack(D), N) / surface.getSize());
+                lowest = std::min(lowest, surface.calcHeight(pose.X_GE[e].shiftBack(D)) / surface.getSize());
             }
     });
     return lowest;

@@ -106,12 +106,12 @@ TEST(ScaledSurface, ItsSizeIsThatOfTheBaseByTheLeastFactorAndConvexStaysConvex) 
 TEST(ScaledSurface, ItsHoleAndItsEdgeGoAlongWithTheMap) {
     const Mat3 shear = makeShear();
     const ScaledImplicitSurface<Torus> ring(Torus(0.3, 0.1), shear);
-    const Vec3 inPlane = shear * Vec3(0.15, 0, 0), axis = ring.getHoleAxis();
+    const Vec3 inPlane = shear * Vec3(0.15, 0, 0), axis = ring.getHole()->getAxis();
     EXPECT_NEAR(axis.dot(shear * Vec3(1, 2, 0)), 0, 1e-15);
-    EXPECT_EQ(ring.countHoleCrossings(inPlane - 0.1 * axis, inPlane + 0.1 * axis), 1);
-    EXPECT_EQ(ring.countHoleCrossings(inPlane + 0.1 * axis, inPlane - 0.1 * axis), -1);
-    EXPECT_EQ(ring.countHoleCrossings(Vec3(0.15, 0, -0.1), Vec3(0.15, 0, 0.1)), 0);
-    EXPECT_EQ(Torus(0.3, 0.1).countHoleCrossings(Vec3(0.15, 0, -0.1), Vec3(0.15, 0, 0.1)), 1);
+    EXPECT_EQ(ring.getHole()->countCrossings(inPlane - 0.1 * axis, inPlane + 0.1 * axis), 1);
+    EXPECT_EQ(ring.getHole()->countCrossings(inPlane + 0.1 * axis, inPlane - 0.1 * axis), -1);
+    EXPECT_EQ(ring.getHole()->countCrossings(Vec3(0.15, 0, -0.1), Vec3(0.15, 0, 0.1)), 0);
+    EXPECT_EQ(Torus(0.3, 0.1).getHole()->countCrossings(Vec3(0.15, 0, -0.1), Vec3(0.15, 0, 0.1)), 1);
 
     const ScaledImplicitSurface<Cone> cone(Cone(0.4, 0.3, 0.1), shear);
     const Vec3 generator(std::tan(0.4), 0, 1);
@@ -122,7 +122,7 @@ TEST(ScaledSurface, ItsHoleAndItsEdgeGoAlongWithTheMap) {
 /** From below the sheared ring to above, or from above to below. */
 TEST(ScaledSurface, AShearedRingIsThreadedAsOftenAsHinted) {
     const auto ring = std::make_shared<ScaledImplicitSurface<Torus>>(Torus(0.3, 0.1), makeShear());
-    const Vec3 axis = ring->getHoleAxis(), aside = 0.5 * axis.unitOrthogonal();
+    const Vec3 axis = ring->getHole()->getAxis(), aside = 0.5 * axis.unitOrthogonal();
     for (const int passages : {-2, -1, 0, 1, 2}) {
         const double side = passages < 0 ? -1 : 1;
         PathProblem problem;
@@ -169,7 +169,7 @@ class Formless final : public Surface {
 public:
     double getSize() const override { return m_sphere.getSize(); }
     std::string getDescription() const override { return "formless"; }
-    double calcHeight(const Vec3& p, Vec3& N) const override { return m_sphere.calcHeight(p, N); }
+    double calcHeightAndNormal(const Vec3& p, Vec3& N) const override { return m_sphere.calcHeightAndNormal(p, N); }
     SurfacePoint findSurfacePoint(const Vec3& p) const override { return m_sphere.findSurfacePoint(p); }
     SurfacePoint calcDisplacedPoint(const SurfacePoint& p, const Vec3& d) const override {
         return m_sphere.calcDisplacedPoint(p, d);

@@ -205,11 +205,10 @@ TEST(StartThreading, FollowsAnyLineThatIsClearOfTheTube) {
         const Torus torus(1, random.uniform(0.1, 0.7));
         const Vec3 A = random.vector(3), B = random.vector(3);
         const double length = (B - A).norm();
-        Vec3 N;
         const double s = torus.findLowestPoint(A, (B - A) / length, length);
-        if (torus.calcHeight(A + s * (B - A) / length, N) < 0.01) continue;
+        if (torus.calcHeight(A + s * (B - A) / length) < 0.01) continue;
         const SingleObstacle scene(std::make_shared<Torus>(torus), {}, A, B);
-        const int crossings = torus.countHoleCrossings(A, B);
+        const int crossings = torus.getHole()->countCrossings(A, B);
         ++(crossings ? threaded : outside);
         EXPECT_EQ(scene.path.status, PathStatus::Solved);
         EXPECT_EQ(scene.passage().count, crossings);

@@ -293,7 +293,9 @@ public:
     double getSize() const override { return 0.4; }
     std::string getDescription() const override { return "wrong height"; }
     ImplicitValue calcImplicit(const Vec3& p) const { return m_right.calcImplicit(p); }
-    double calcHeight(const Vec3& p, Vec3& N) const override { return m_factor * m_right.calcHeight(p, N); }
+    double calcHeightAndNormal(const Vec3& p, Vec3& N) const override {
+        return m_factor * m_right.calcHeightAndNormal(p, N);
+    }
     SurfacePoint findSurfacePoint(const Vec3& p) const override { return m_right.findSurfacePoint(p); }
     explicit WrongHeight(double factor) : m_factor(factor) {}
 
@@ -361,7 +363,8 @@ TEST(SurfaceHeights, AreFiniteFromNearAndFromFarAndUnderLayers) {
             for (int i = 0; i < 20; ++i) {
                 const Vec3 p = reach * surface->getSize() * random.vector(1);
                 Vec3 N;
-                EXPECT_TRUE(std::isfinite(surface->calcHeight(p, N)) && N.allFinite()) << surface->getDescription();
+                EXPECT_TRUE(std::isfinite(surface->calcHeightAndNormal(p, N)) && N.allFinite())
+                    << surface->getDescription();
                 EXPECT_TRUE(surface->findSurfacePoint(p).p.allFinite()) << surface->getDescription() << p.transpose();
             }
 }

@@ -107,7 +107,7 @@ TEST(ContactGeometrySurfaceTest, EverySmoothKindObeysTheLaws) {
             SurfaceLawSample sample{random.vector(0.5), random.vector(1), 0.3};
             if (std::string(c.name) == "Torus") sample.p_S = Vec3(0.9, 0.1, 0.1) + 0.3 * sample.p_S;
             Vec3 N;
-            surface.calcHeight(surface.findSurfacePoint(sample.p_S).p, N);
+            surface.calcHeightAndNormal(surface.findSurfacePoint(sample.p_S).p, N);
             if (sample.direction_S.cross(N).norm() < 0.3) sample.direction_S = N.unitOrthogonal();
             samples.push_back(sample);
         }
@@ -125,7 +125,7 @@ TEST(ContactGeometrySurfaceTest, AHalfSpaceIsAPlaneAndNeedsASize) {
     // SimTK's half space is where x > 0.
     const ContactGeometrySurface surface(SimTK::ContactGeometry::HalfSpace(), 2);
     Vec3 N;
-    EXPECT_NEAR(surface.calcHeight(Vec3(-0.3, 1, 2), N), 0.3, 1e-15);
+    EXPECT_NEAR(surface.calcHeightAndNormal(Vec3(-0.3, 1, 2), N), 0.3, 1e-15);
     EXPECT_LT((N - Vec3(-1, 0, 0)).norm(), 1e-15);
     EXPECT_MESSAGE(ContactGeometrySurface(SimTK::ContactGeometry::HalfSpace()), "size must be positive and finite");
 }
@@ -135,7 +135,7 @@ TEST(ContactGeometrySurfaceTest, AHeightMapIsOutsideAboveAndGoesOnBeyondItsEdges
     const auto twin = makeHeightMapTwin();
     for (const Vec3& p : {Vec3(0.2, 0.3, 1), Vec3(0.2, 0.3, -1), Vec3(1.4, 0.2, 0.1), Vec3(-1.2, 3, 0.5)}) {
         Vec3 N, twinN;
-        EXPECT_NEAR(surface.calcHeight(p, N), twin->calcHeight(p, twinN), 1e-13);
+        EXPECT_NEAR(surface.calcHeightAndNormal(p, N), twin->calcHeightAndNormal(p, twinN), 1e-13);
         EXPECT_LT((N - twinN).norm(), 1e-13);
     }
     EXPECT_TRUE(surface.isInDomain({Vec3(0.9, -0.9, -0.067), Vec2::Zero(), 0}));

@@ -68,7 +68,7 @@ private:
             case 2:
                 return WindAround{uniform(-2, 2)};
             case 3:
-                if (surface.countHoleCrossings(-Vec3::UnitZ(), Vec3::UnitZ()) != 0) return ThreadHole{pick(5) - 2};
+                if (surface.getHole()) return ThreadHole{pick(5) - 2};
                 return {};
             default:
                 return {};

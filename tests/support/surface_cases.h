@@ -328,7 +328,7 @@ inline std::vector<SurfaceLawSample> makeSamples(const Surface& surface, double 
     const auto add = [&](const Vec3& p) {
         const Vec3 foot = surface.findSurfacePoint(p).p;
         Vec3 N;
-        surface.calcHeight(foot, N);
+        surface.calcHeightAndNormal(foot, N);
         Vec3 direction = draw();
         if (direction.cross(N).norm() < 0.3) direction = N.unitOrthogonal();
         samples.push_back({p, direction, length * (0.55 + 0.45 * uniform(random))});

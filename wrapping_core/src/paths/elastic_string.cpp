@@ -70,7 +70,7 @@ bent outwards where it is deepest, and so on for both halves. B itself is not ad
 void ElasticString::layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth) {
     int crossed = -1;
     double deepest = -kLayingDepthTolerance;
-    Vec3 bend = Vec3::Zero(), N_S;
+    Vec3 bend = Vec3::Zero();
     const double length = (B - A).norm();
     if (depth == 0 || !(length > 0)) return;
     for (int i = firstHold; i < static_cast<int>(m_holds.size()); ++i) {
@@ -79,7 +79,7 @@ void ElasticString::layEdge(const PathProblem& problem, int firstHold, Vec3 A, c
         const Vec3 A_S = X_GS.shiftBack(A), e_S = X_GS.R.transpose() * (B - A) / length;
         const double s = surface.findLowestPoint(A_S, e_S, length);
         const Vec3 D_S = A_S + s * e_S;
-        const double depthThere = surface.calcHeight(D_S, N_S) / surface.getSize();
+        const double depthThere = surface.calcHeight(D_S) / surface.getSize();
         // An end below the surface is no bend: that obstacle is switched off, or the guide lies in another.
         if (!(depthThere < deepest) || s <= 0 || s >= length) continue;
         deepest = depthThere, crossed = i;
@@ -133,7 +133,6 @@ std::size_t ElasticString::findFirstHold(int node) const {
 a neighbour lifts and their portions grow. */
 double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int node) {
     double room = m_extent;
-    Vec3 N_S;
     const std::size_t first = findFirstHold(node);
     int beyond = 0;
     for (std::size_t i = first > kNeighbours ? first - kNeighbours : 0; i < m_holds.size(); ++i) {
@@ -141,7 +140,7 @@ double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int no
         if (hold.portionBegin > node && ++beyond > static_cast<int>(kNeighbours)) break;
         if (node < hold.from || node > hold.to) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
-        const double height = surface.calcHeight(hold.X_GS.shiftBack(x), N_S);
+        const double height = surface.calcHeight(hold.X_GS.shiftBack(x));
         ++m_numHeights;
         room = std::min(room, surface.getSize() + std::max(0.0, height));
     }
@@ -201,7 +200,6 @@ void ElasticString::remesh(const PathProblem& problem, double fineness) {
 /** Each obstacle acts from the last contact before it (in path order) to the first contact after it. */
 void ElasticString::updatePortions(const PathProblem& problem) {
     const int n = static_cast<int>(m_holds.size());
-    Vec3 N_S;
     int before = 0;
     for (int i = 0; i < n; ++i) {
         before = std::max(before, m_holds[i].from);
@@ -216,7 +214,7 @@ void ElasticString::updatePortions(const PathProblem& problem) {
         if (hold.touches()) after = std::min(after, hold.first);
         const Surface& surface = *problem.getElement(hold.element).surface;
         const auto isInside = [&](int node) {
-            return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) < kContactTolerance * surface.getSize();
+            return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node])) < kContactTolerance * surface.getSize();
         };
         hold.isSwitchedOff = isInside(hold.from) || isInside(hold.to);
     }
@@ -272,7 +270,7 @@ void ElasticString::pushOut(const PathProblem& problem, int node, double& room) 
             continue;
         }
         Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
-        const double height = surface.calcHeight(p_S, N_S);
+        const double height = surface.calcHeightAndNormal(p_S, N_S);
         if (seen) *seen = {height, m_travel[node]};
         ++m_numHeights;
         room = std::min(room, size + std::max(0.0, height));
@@ -288,8 +286,7 @@ void ElasticString::pushOut(const PathProblem& problem, int node, double& room) 
 /** Height of a node above a surface, in its sizes. */
 double ElasticString::calcHeight(const PathProblem& problem, const Hold& hold, int node) const {
     const Surface& surface = *problem.getElement(hold.element).surface;
-    Vec3 N_S;
-    return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node]), N_S) / surface.getSize();
+    return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node])) / surface.getSize();
 }
 
 /** True if the string is clear of the surface somewhere between its first and its last contact. */

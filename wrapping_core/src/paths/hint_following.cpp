@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "geodesics/arc_walker.h"
 #include "paths/obstacle_walk.h"
+#include "surfaces/arc_walker.h"
 
 namespace tautline {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "geodesics/arc_walker.h"
 #include "paths/obstacle_walk.h"
+#include "surfaces/arc_walker.h"
 
 namespace tautline {
 namespace {
@@ -12,21 +12,18 @@ namespace {
 /** Walks along a portion of a path and counts. */
 class PassageCounter {
 public:
-    PassageCounter(const Surface& surface, HolePassage& passage) : m_surface(surface), m_passage(passage) {}
+    PassageCounter(const Hole& hole, HolePassage& passage) : m_hole(hole), m_passage(passage) {}
 
     void start(const Vec3& p_S) { m_last = p_S; }
     void goTo(const Vec3& p_S) {
-        const int crossings = m_surface.countHoleCrossings(m_last, p_S);
-        if (crossings != 0) {
-            const Vec3 axis = m_surface.getHoleAxis(), step = p_S - m_last;
-            m_passage.through_S = m_last - axis.dot(m_last) / axis.dot(step) * step;
-        }
+        const int crossings = m_hole.countCrossings(m_last, p_S);
+        if (crossings != 0) m_passage.through_S = m_hole.calcPlaneCrossing(m_last, p_S);
         m_passage.count += crossings;
         m_last = p_S;
     }
 
 private:
-    const Surface& m_surface;
+    const Hole m_hole;
     HolePassage& m_passage;
     Vec3 m_last = Vec3::Zero();
 };
@@ -67,20 +64,15 @@ the hole since the passages that are kept. */
 template <class Visitor>
 void visitHoles(const PathProblem& problem, const PathPose& pose, const PathSolution& path, Visitor visit) {
     visitObstaclesOnSegments(problem, pose, path, [&](int e, int in, int out) {
-        const Surface& surface = *problem.getElement(e).surface;
-        if (!hasHole(surface)) return;
+        const std::optional<Hole> hole = problem.getElement(e).surface->getHole();
+        if (!hole) return;
         const HolePassage passage = calcHolePassage(problem, pose, path, e, in, out), &kept = path.contacts[e].passage;
         const HolePassage comparable = calcComparablePassage(problem, pose, path, e, kept, passage);
-        visit(e, passage, hasLeftHole(surface, kept, comparable));
+        visit(e, passage, hasLeftHole(*hole, kept, comparable));
     });
 }
 
 }  // namespace
-
-bool hasHole(const Surface& surface) {
-    const Vec3 axis = surface.getHoleAxis();
-    return surface.countHoleCrossings(-axis, axis) != 0;
-}
 
 HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int e,
                             std::size_t first, std::size_t last) {
@@ -88,7 +80,7 @@ HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, co
     HolePassage passage;
     passage.from = path.segments[first].fromElement, passage.to = path.segments[last].toElement;
     passage.A_S = X_GH.shiftBack(path.segments[first].A), passage.B_S = X_GH.shiftBack(path.segments[last].B);
-    PassageCounter counter(*problem.getElement(e).surface, passage);
+    PassageCounter counter(*problem.getElement(e).surface->getHole(), passage);
     counter.start(passage.A_S);
     for (std::size_t k = first; k < last; ++k) {
         const int between = path.segments[k].toElement;
@@ -105,10 +97,10 @@ HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, co
     return passage;
 }
 
-bool hasLeftHole(const Surface& surface, const HolePassage& before, const HolePassage& after) {
+bool hasLeftHole(const Hole& hole, const HolePassage& before, const HolePassage& after) {
     if (!before.isKnown()) return false;
-    return surface.countHoleCrossings(before.A_S, after.A_S) + after.count +
-               surface.countHoleCrossings(after.B_S, before.B_S) - before.count !=
+    return hole.countCrossings(before.A_S, after.A_S) + after.count + hole.countCrossings(after.B_S, before.B_S) -
+               before.count !=
            0;
 }
 

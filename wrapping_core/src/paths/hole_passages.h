@@ -9,9 +9,6 @@
 
 namespace tautline {
 
-/** True if the z axis of S goes through a hole of the surface. */
-bool hasHole(const Surface& surface);
-
 /** Counts the passages through the hole of element e of a portion of a path, arcs between its segments included.
 @param first, last   indices of its segments, both included */
 HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int e,
@@ -19,7 +16,7 @@ HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, co
 
 /** True if a string cannot have come from `before` to `after` without the ring going through it: the two, closed
 by the straight ways of their ends, are linked with the ring. False where nothing is known of `before`. */
-bool hasLeftHole(const Surface& surface, const HolePassage& before, const HolePassage& after);
+bool hasLeftHole(const Hole& hole, const HolePassage& before, const HolePassage& after);
 
 /** How often a path has to go through each hole, along +z of S less against it. */
 struct PassageRule {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "geodesics/arc_walker.h"
+#include "surfaces/arc_walker.h"
 
 namespace tautline {
 
@@ -46,7 +46,6 @@ namespace {
 
 /** The fixed point that is inside an obstacle, by name. */
 std::string describeEndInside(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
-    Vec3 N_S;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (problem.getElement(e).isPoint() || !pose.hasElement(e) || !path.contacts[e].isSwitchedOff) continue;
         const Surface& surface = *problem.getElement(e).surface;
@@ -54,7 +53,7 @@ std::string describeEndInside(const PathProblem& problem, const PathPose& pose, 
         while (!problem.getElement(before).isPoint() || !pose.hasElement(before)) --before;
         while (!problem.getElement(after).isPoint() || !pose.hasElement(after)) ++after;
         const auto calcHeight = [&](int point) {
-            return surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
+            return surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p));
         };
         const bool isBefore = calcHeight(before) <= calcHeight(after);
         return "the point " + quoteName(problem, isBefore ? before : after) + " is inside " + quoteName(problem, e) +
@@ -102,10 +101,9 @@ StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const 
     std::vector<Vec3> arc_S;
     const auto isBelow = [&](int e, int other) {
         const Surface& surface = *problem.getElement(other).surface;
-        Vec3 N_S;
         return std::any_of(arc_S.begin(), arc_S.end(), [&](const Vec3& p_S) {
             const Vec3 p_G = pose.X_GE[e] * p_S;
-            return surface.calcHeight(pose.X_GE[other].shiftBack(p_G), N_S) < kOverlap * surface.getSize();
+            return surface.calcHeight(pose.X_GE[other].shiftBack(p_G)) < kOverlap * surface.getSize();
         });
     };
     for (int e = 0; e < problem.getNumElements(); ++e) {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "geodesics/arc_walker.h"
 #include "paths/velocity_check.h"
+#include "surfaces/arc_walker.h"
 
 namespace tautline {
 namespace {

@@ -22,7 +22,8 @@ void checkHint(const StartHint& hint, const Surface& surface, const std::string&
         require(std::abs(winding->turns) <= kMaxTurns, "path: the turns about obstacle '", name, "' must be within ",
                 kMaxTurns, ", but are ", winding->turns);
     if (const auto* thread = std::get_if<ThreadHole>(&hint)) {
-        require(hasHole(surface), "path: obstacle '", name, "', ", surface.getDescription(), ", has no hole to thread");
+        require(surface.getHole().has_value(), "path: obstacle '", name, "', ", surface.getDescription(),
+                ", has no hole to thread");
         require(std::abs(thread->passages) <= kMaxTurns, "path: the passages through obstacle '", name,
                 "' must be within ", kMaxTurns, ", but are ", thread->passages);
     }

@@ -101,7 +101,7 @@ const PathPose& PathSolver::calcLiftedPose(const PathProblem& problem, const Pat
         const Surface& surface = *problem.getElement(e).surface;
         const Pose& X_GS = pose.X_GE[e];
         const double size = surface.getSize();
-        const double height = surface.calcHeight(X_GS.shiftBack(pose.X_GE[point].p), N_S);
+        const double height = surface.calcHeightAndNormal(X_GS.shiftBack(pose.X_GE[point].p), N_S);
         if (!(std::abs(height) < kEndHeight * size)) return;
         if (!isLifted) lifted = pose;
         isLifted = true;
@@ -150,7 +150,6 @@ bool PathSolver::findKeptPath(const PathProblem& problem, const PathPose& pose, 
 /** Switches off the obstacles in which an end of their strand lies: no string lies over them. The side on which one was
 passed before, or the way through its hole, ends with that: an end may come out anywhere. */
 void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const {
-    Vec3 N_S;
     for (ObstacleContact& contact : path.contacts) {
         if (contact.isSwitchedOff) contact.passage = HolePassage(), contact.hasLeftHole = false;
         if (contact.isSwitchedOff && !contact.isTouched) contact.clearance = LineClearance();
@@ -158,7 +157,7 @@ void PathSolver::switchOffEnclosing(const PathProblem& problem, const PathPose& 
     }
     visitStrandEnds(problem, pose, [&](int point, int e) {
         const Surface& surface = *problem.getElement(e).surface;
-        const double height = surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p), N_S);
+        const double height = surface.calcHeight(pose.X_GE[e].shiftBack(pose.X_GE[point].p));
         if (height < kContactTolerance * surface.getSize()) path.contacts[e].isSwitchedOff = true;
     });
 }

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geodesics/arc_walker.h"
-#include "tautline/geodesics/geodesic_events.h"
+#include "surfaces/arc_walker.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_stability.h"
+#include "tautline/surfaces/geodesic_events.h"
 
 namespace tautline {
 namespace {
@@ -29,9 +29,8 @@ bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSeg
     if (surface.isConvex() || !(line.length > 0)) return false;
     const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.rotateBack(line.e);
     // Near the tangent end the height is rounding of a square: judge beyond a margin only.
-    Vec3 N;
     const double s = surface.findLowestPoint(A_S, e_S, line.length);
-    return surface.calcHeight(A_S + s * e_S, N) < -kRounding * surface.getSize();
+    return surface.calcHeight(A_S + s * e_S) < -kRounding * surface.getSize();
 }
 
 /** The ends tell it for most arcs; along the arc it is asked only of surfaces that have an edge. */

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "surfaces/low_place.h"
+#include "surfaces/closest_approach.h"
 
 namespace tautline {
 namespace {
@@ -15,8 +15,8 @@ constexpr double kSamePlace = 1e-9;  ///< by which, of itself, a height may fall
 void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, double s,
                         LineClearance& clearance) {
     constexpr int kApproaches = 4;
-    Vec3 D = A_S + s * e_S, N;
-    const bool isOutside = surface.calcHeight(D, N) > 0;
+    Vec3 D = A_S + s * e_S;
+    const bool isOutside = surface.calcHeight(D) > 0;
     clearance.C = surface.findSurfacePoint(D);
     // From foot to foot: the lowest point of a line is far from the nearest one where a surface is thin.
     for (int i = 0; i < kApproaches && isOutside; ++i) {
@@ -44,7 +44,7 @@ void staySunk(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double l
 void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double s, LineClearance& clearance) {
     const Vec3 D = A_S + s * e_S;
     clearance.C = surface.findSurfacePoint(D);
-    clearance.distance = surface.calcHeight(D, clearance.N);
+    clearance.distance = surface.calcHeightAndNormal(D, clearance.N);
     clearance.scale = 1 / surface.getSize();
     clearance.lineCoordinate = s;
 }
@@ -82,11 +82,10 @@ void takeNearerClearance(const Surface& surface, const Pose& X_GS, const Vec3& A
     const double length = (B_S - A_S).norm();
     if (!(length > 0)) return;
     const Vec3 e_S = (B_S - A_S) / length;
-    LowPlace lowest{kNaN, (1 - kSamePlace) * clearance.distance};
-    Vec3 N;
+    ClosestApproach lowest{kNaN, (1 - kSamePlace) * clearance.distance};
     for (const double s : {0.0, length})
-        if (const double height = surface.calcHeight(A_S + s * e_S, N); height < lowest.height) lowest = {s, height};
-    if (const auto place = findLowPlace(surface, A_S, e_S, length, lowest.height)) lowest = *place;
+        if (const double height = surface.calcHeight(A_S + s * e_S); height < lowest.height) lowest = {s, height};
+    if (const auto place = findClosestApproach(surface, A_S, e_S, length, lowest.height)) lowest = *place;
     if (!std::isfinite(lowest.s)) return;
     LineClearance nearer = clearance;
     nearer.found = false;

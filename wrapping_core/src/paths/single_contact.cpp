@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "surfaces/low_place.h"
-#include "tautline/geodesics/geodesic_events.h"
+#include "surfaces/closest_approach.h"
 #include "tautline/paths/contact_switch.h"
+#include "tautline/surfaces/geodesic_events.h"
 
 namespace tautline {
 namespace {
@@ -15,7 +15,7 @@ minima between its ends, 1 if there is none. Towards its tangent end the height 
 double calcReturnHeight(const Surface& surface, const Pose& X_GS, const StraightSegment& line) {
     const double size = surface.getSize();
     const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.rotateBack(line.e);
-    const auto place = findLowPlace(surface, A_S, e_S, line.length, size);
+    const auto place = findClosestApproach(surface, A_S, e_S, line.length, size);
     return place ? place->height / size : 1;
 }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geodesics/arc_walker.h"
 #include "paths/hole_passages.h"
+#include "surfaces/arc_walker.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/segment_clearance.h"
 
@@ -36,11 +36,10 @@ longer than half the height there. From a ray that passes by, the surface point 
 Vec3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
     constexpr int kMaxSteps = 200;
     const double size = surface.getSize(), least = 1e-3 * size;
-    Vec3 N;
     double radius = kFar * size;
     for (int i = 0; i < kMaxSteps && radius > 0; ++i) {
         const Vec3 p = makeCylindrical(radius, azimuth, z);
-        const double height = surface.calcHeight(p, N);
+        const double height = surface.calcHeight(p);
         if (!(height > least)) return surface.findSurfacePoint(p).p;
         radius -= height / 2;
     }
@@ -48,16 +47,17 @@ Vec3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
 }
 
 /** Where the line passes the hole, moved towards the centre until it lies clear of the surface. */
-Vec3 findHolePoint(const Surface& surface, const Chord& chord) {
-    const Vec3 axis = surface.getHoleAxis(), step = chord.B_S - chord.A_S;
-    Vec3 point = chord.A_S - axis.dot(chord.A_S) / axis.dot(step) * step, N;
-    point -= axis.dot(point) * axis;
-    for (int i = 0; i < kHoleSteps && surface.calcHeight(point, N) < 0; ++i) point *= 0.8;
+Vec3 findHolePoint(const Surface& surface, const Hole& hole, const Chord& chord) {
+    Vec3 point = hole.calcPlaneCrossing(chord.A_S, chord.B_S);
+    point -= hole.getAxis().dot(point) * hole.getAxis();
+    for (int i = 0; i < kHoleSteps && surface.calcHeight(point) < 0; ++i) point *= 0.8;
     return point;
 }
 
 void guide(const Surface& surface, std::monostate, const Chord& chord, std::vector<Vec3>& guides_S) {
-    if (surface.countHoleCrossings(chord.A_S, chord.B_S) != 0) guides_S.push_back(findHolePoint(surface, chord));
+    const std::optional<Hole> hole = surface.getHole();
+    if (hole && hole->countCrossings(chord.A_S, chord.B_S) != 0)
+        guides_S.push_back(findHolePoint(surface, *hole, chord));
 }
 
 void guide(const Surface& surface, const PassNear& hint, const Chord&, std::vector<Vec3>& guides_S) {
@@ -68,10 +68,10 @@ void guide(const Surface& surface, const PassNear& hint, const Chord&, std::vect
 the axis of a long surface the way down would lead far along it. */
 Vec3 findPointOnSide(const Surface& surface, const Vec3& D, const Vec3& side) {
     const double size = surface.getSize();
-    Vec3 N, beside = D;
+    Vec3 beside = D;
     for (double height = kThrough * size; height < kFar * size; height *= 2) {
         beside = D + (height - side.dot(D)) * side;
-        if (surface.calcHeight(beside, N) > size) break;
+        if (surface.calcHeight(beside) > size) break;
     }
     return surface.findSurfacePoint(beside).p;
 }
@@ -82,8 +82,7 @@ void guide(const Surface& surface, const PassOnSide& hint, const Chord& chord, s
     const double length = step.norm();
     const Vec3 e = length > 0 ? Vec3(step / length) : Vec3(Vec3::UnitX());
     const Vec3 D = chord.A_S + surface.findLowestPoint(chord.A_S, e, length) * e;
-    Vec3 N;
-    if (surface.calcHeight(D, N) > 0 && side.dot(D) >= 0) return;
+    if (surface.calcHeight(D) > 0 && side.dot(D) >= 0) return;
     guides_S.push_back(findPointOnSide(surface, D, side));
 }
 
@@ -102,9 +101,9 @@ void guide(const Surface& surface, const WindAround& hint, const Chord& chord, s
 struct TubePoints {
     Vec3 inner, outer, top, bottom;
 
-    TubePoints(const Surface& surface, const Vec3& beside_S) {
+    TubePoints(const Surface& surface, const Vec3& axis, const Vec3& beside_S) {
         const double size = surface.getSize(), far = kFar * size;
-        const Vec3 axis = surface.getHoleAxis(), aside = makeTangent(beside_S, axis);
+        const Vec3 aside = makeTangent(beside_S, axis);
         inner = surface.findSurfacePoint(1e-3 * size * aside).p;
         outer = surface.findSurfacePoint(far * aside).p;
         const Vec3 middle = 0.5 * (inner + outer);
@@ -119,10 +118,11 @@ hole. */
 void guide(const Surface& surface, const ThreadHole& hint, const Chord& chord, std::vector<Vec3>& guides_S) {
     const int count = std::abs(hint.passages);
     const bool isUpward = hint.passages >= 0;
-    const Vec3 axis = surface.getHoleAxis();
-    const TubePoints atA(surface, chord.A_S), atB(surface, chord.B_S);
+    const Hole hole = *surface.getHole();  // PathProblem refuses the hint without one
+    const Vec3 axis = hole.getAxis();
+    const TubePoints atA(surface, axis, chord.A_S), atB(surface, axis, chord.B_S);
     if (count == 0) {
-        if (surface.countHoleCrossings(chord.A_S, chord.B_S) != 0) guides_S.push_back(atA.outer);
+        if (hole.countCrossings(chord.A_S, chord.B_S) != 0) guides_S.push_back(atA.outer);
         return;
     }
     const auto goRound = [&](const TubePoints& tube) {
@@ -141,8 +141,8 @@ void guide(const Surface& surface, const ThreadHole& hint, const Chord& chord, s
 
 int countAskedPassages(const Surface& surface, const StartHint& hint, const Chord& chord) {
     if (const auto* thread = std::get_if<ThreadHole>(&hint)) return thread->passages;
-    if (std::holds_alternative<std::monostate>(hint) && hasHole(surface))
-        return surface.countHoleCrossings(chord.A_S, chord.B_S);
+    const std::optional<Hole> hole = surface.getHole();
+    if (std::holds_alternative<std::monostate>(hint) && hole) return hole->countCrossings(chord.A_S, chord.B_S);
     return PassageRule::kAny;
 }
 

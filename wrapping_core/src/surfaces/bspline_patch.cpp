@@ -7,6 +7,10 @@
 #include "surfaces/shape_checks.h"
 
 namespace tautline {
+
+// Declared extern in the header: compiled once, here.
+template class ParametricShape<BSplinePatch>;
+
 namespace {
 
 /** Control points of the cubic spline through n values at its knots, for each column of `values` (n x k). */

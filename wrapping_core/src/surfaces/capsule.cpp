@@ -8,7 +8,8 @@
 
 namespace tautline {
 
-// Declared extern in the header: the integrator is compiled once for each form, here.
+// Declared extern in the header: compiled once, here.
+template class ImplicitShape<Capsule>;
 template class ParametricShape<ParametricCapsule>;
 template class ParametricTwin<ParametricCapsule, Capsule>;
 
@@ -41,7 +42,7 @@ std::string Capsule::getDescription() const {
 
 /** On the side rho = r sqrt(1 - w^4), w = (|v| - L/2)/c; at the tips |z| = L/2 + c (1 - rho^2/r^2)^(1/4). */
 ParametricValue ParametricCapsule::calcParametric(const Vec2& uv, int chart) const {
-    const double r = m_twin.getRadius(), c = m_twin.getCapHeight(), half = 0.5 * m_twin.getLength();
+    const double r = getTwin().getRadius(), c = getTwin().getCapHeight(), half = 0.5 * getTwin().getLength();
     if (chart == 0) {
         const double side = uv[1] < 0 ? -1 : 1, w = std::max(std::abs(uv[1]) - half, 0.0) / c, w2 = w * w;
         const double root = std::sqrt(1 - w2 * w2);
@@ -65,18 +66,18 @@ ParametricValue ParametricCapsule::calcParametric(const Vec2& uv, int chart) con
 Vec2 ParametricCapsule::calcNearbyParameters(const Vec3& p_S, int chart) const {
     constexpr double kEdge = 0.95;
     if (chart == 0) {
-        const double end = 0.5 * m_twin.getLength() + kEdge * m_twin.getCapHeight();
+        const double end = 0.5 * getTwin().getLength() + kEdge * getTwin().getCapHeight();
         return {std::atan2(p_S.y(), p_S.x()), std::clamp(p_S.z(), -end, end)};
     }
-    const double rho = p_S.head<2>().norm(), most = kEdge * m_twin.getRadius(), k = rho > most ? most / rho : 1;
+    const double rho = p_S.head<2>().norm(), most = kEdge * getTwin().getRadius(), k = rho > most ? most / rho : 1;
     return chart == 1 ? Vec2(k * p_S.x(), k * p_S.y()) : Vec2(k * p_S.y(), k * p_S.x());
 }
 
 /** By the distance from the axis: in the middle of a cap either kind of chart will do. */
 int ParametricCapsule::chooseChart(const Vec3& p_S, const Vec3& /*t_S*/, int current) const {
-    const double rho2 = p_S.head<2>().squaredNorm() / (m_twin.getRadius() * m_twin.getRadius());
+    const double rho2 = p_S.head<2>().squaredNorm() / (getTwin().getRadius() * getTwin().getRadius());
     const int tip = p_S.z() < 0 ? 2 : 1;
-    if (std::abs(p_S.z()) <= 0.5 * m_twin.getLength() || rho2 > 0.8) return 0;
+    if (std::abs(p_S.z()) <= 0.5 * getTwin().getLength() || rho2 > 0.8) return 0;
     if (rho2 < 0.5) return tip;
     return current == 0 ? 0 : tip;
 }

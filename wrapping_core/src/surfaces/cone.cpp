@@ -8,7 +8,8 @@
 
 namespace tautline {
 
-// Declared extern in the header: the integrator is compiled once for each form, here.
+// Declared extern in the header: compiled once, here.
+template class ImplicitShape<Cone>;
 template class ParametricShape<ParametricCone>;
 template class ParametricTwin<ParametricCone, Cone>;
 

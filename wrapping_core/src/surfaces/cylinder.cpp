@@ -8,7 +8,7 @@
 
 namespace tautline {
 
-// Declared extern in the header: the integrator is compiled once for each form, here.
+// Declared extern in the header: compiled once, here.
 template class ImplicitShape<Cylinder>;
 template class ParametricShape<ParametricCylinder>;
 template class ParametricTwin<ParametricCylinder, Cylinder>;
@@ -21,7 +21,7 @@ std::string Cylinder::getDescription() const {
     return describeShape("cylinder(radius=", m_radius, ")");
 }
 
-double Cylinder::calcHeight(const Vec3& p_S, Vec3& N_S) const {
+double Cylinder::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
     const double rho = p_S.head<2>().norm();
     N_S = rho > 0 ? Vec3(p_S.x() / rho, p_S.y() / rho, 0) : Vec3(Vec3::UnitX());
     return rho - m_radius;
@@ -29,7 +29,7 @@ double Cylinder::calcHeight(const Vec3& p_S, Vec3& N_S) const {
 
 SurfacePoint Cylinder::findSurfacePoint(const Vec3& p_S) const {
     Vec3 N;
-    calcHeight(p_S, N);
+    calcHeightAndNormal(p_S, N);
     return {Vec3(m_radius * N.x(), m_radius * N.y(), p_S.z())};
 }
 

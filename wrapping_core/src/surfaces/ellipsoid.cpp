@@ -5,7 +5,7 @@
 
 namespace tautline {
 
-// Declared extern in the header: the integrator is compiled once for each form, here.
+// Declared extern in the header: compiled once, here.
 template class ImplicitShape<Ellipsoid>;
 template class ParametricShape<ParametricEllipsoid>;
 template class ParametricTwin<ParametricEllipsoid, Ellipsoid>;

@@ -7,7 +7,8 @@
 
 namespace tautline {
 
-// Declared extern in the header: the integrator is compiled once for each form, here.
+// Declared extern in the header: compiled once, here.
+template class ImplicitShape<EllipticCylinder>;
 template class ParametricShape<ParametricEllipticCylinder>;
 template class ParametricTwin<ParametricEllipticCylinder, EllipticCylinder>;
 

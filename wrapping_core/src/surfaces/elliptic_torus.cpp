@@ -7,7 +7,8 @@
 
 namespace tautline {
 
-// Declared extern in the header: the integrator is compiled once for each form, here.
+// Declared extern in the header: compiled once, here.
+template class ImplicitShape<EllipticTorus>;
 template class ParametricShape<ParametricEllipticTorus>;
 template class ParametricTwin<ParametricEllipticTorus, EllipticTorus>;
 

@@ -4,6 +4,11 @@
 #include "surfaces/shape_checks.h"
 
 namespace tautline {
+
+// Declared extern in the header: compiled once, here.
+template class ImplicitShape<ImplicitFunctionSurface>;
+template class ParametricShape<ParametricFunctionSurface>;
+
 namespace {
 
 constexpr double kFirstStep = 0.01, kSecondStep = 0.03;  ///< over the size: see the header
@@ -81,8 +86,8 @@ ImplicitValue ImplicitFunctionSurface::calcImplicit(const Vec3& p) const {
     return {f, calcGradient(p), calcHessian(p, f)};
 }
 
-double ImplicitFunctionSurface::calcHeight(const Vec3& p_S, Vec3& N_S) const {
-    if (m_full) return ImplicitShape::calcHeight(p_S, N_S);
+double ImplicitFunctionSurface::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
+    if (m_full) return ImplicitShape::calcHeightAndNormal(p_S, N_S);
     const Vec3 gradient = calcGradient(p_S);
     const double slope = gradient.norm();
     N_S = slope > 0 ? Vec3(gradient / slope) : Vec3(Vec3::UnitX());

@@ -6,6 +6,10 @@
 #include "surfaces/shape_checks.h"
 
 namespace tautline {
+
+// Declared extern in the header: compiled once, here.
+template class ImplicitShape<OffsetSurface>;
+
 namespace {
 
 /** What a shape operator W of the base becomes at the height h: W/(1 + h W), in the base's basis {t, B}. */
@@ -135,26 +139,30 @@ bool findFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFrame&
     return refineFoot(base, p, C, frame);
 }
 
+std::shared_ptr<const Surface> requireBase(std::shared_ptr<const Surface> base) {
+    require(base != nullptr, "offset surface: needs a base surface");
+    return base;
+}
+
 }  // namespace
 
 OffsetSurface::OffsetSurface(std::shared_ptr<const Surface> base, double thickness)
-    : m_base(std::move(base)), m_thickness(thickness) {
-    require(m_base != nullptr, "offset surface: needs a base surface");
+    : SurfaceDecorator(requireBase(std::move(base))), m_thickness(thickness) {
     require(std::isfinite(thickness) && thickness >= 0,
             "offset surface: thickness must be finite and not negative, but is ", thickness);
     Vec2 rates;
-    m_hasCoordinates =
-        m_base->calcCoordinateRates(m_base->findSurfacePoint(Vec3::Constant(m_base->getSize())), Vec3::Zero(), rates);
+    m_hasCoordinates = getBase().calcCoordinateRates(getBase().findSurfacePoint(Vec3::Constant(getBase().getSize())),
+                                                     Vec3::Zero(), rates);
 }
 
 std::string OffsetSurface::getDescription() const {
-    return describeShape(m_base->getDescription(), " under a layer of ", m_thickness);
+    return describeShape(getBase().getDescription(), " under a layer of ", m_thickness);
 }
 
 ImplicitValue OffsetSurface::calcImplicit(const Vec3& p) const {
     SurfacePoint C;
     DarbouxFrame frame;
-    findFoot(*m_base, p, C, frame);
+    findFoot(getBase(), p, C, frame);
     const double d = (p - C.p).dot(frame.N);
     const RaisedShape shape(frame, d);  // of the parallel surface through p: the Hessian of the distance
     const Mat3 mixed = frame.t * frame.B.transpose();
@@ -164,11 +172,11 @@ ImplicitValue OffsetSurface::calcImplicit(const Vec3& p) const {
 }
 
 /** The distance itself where p has a foot, else the base's estimate. */
-double OffsetSurface::calcHeight(const Vec3& p_S, Vec3& N_S) const {
-    const double height = m_base->calcHeight(p_S, N_S);
+double OffsetSurface::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
+    const double height = getBase().calcHeightAndNormal(p_S, N_S);
     SurfacePoint C;
     DarbouxFrame frame;
-    if (height < -0.5 * m_base->getSize() || !findFoot(*m_base, p_S, C, frame)) return height - m_thickness;
+    if (height < -0.5 * getBase().getSize() || !findFoot(getBase(), p_S, C, frame)) return height - m_thickness;
     N_S = frame.N;
     return (p_S - C.p).dot(frame.N) - m_thickness;
 }
@@ -176,7 +184,7 @@ double OffsetSurface::calcHeight(const Vec3& p_S, Vec3& N_S) const {
 SurfacePoint OffsetSurface::findSurfacePoint(const Vec3& p_S) const {
     SurfacePoint C;
     DarbouxFrame frame;
-    findFoot(*m_base, p_S, C, frame);
+    findFoot(getBase(), p_S, C, frame);
     return {C.p + m_thickness * frame.N, C.uv, C.chart};
 }
 
@@ -184,20 +192,20 @@ bool OffsetSurface::findFootOfPoint(const SurfacePoint& point, const Vec3& direc
                                     DarbouxFrame& frame) const {
     if (m_hasCoordinates) {  // are they those of the foot?
         C = {Vec3::Constant(kNaN), point.uv, point.chart};
-        frame = m_base->calcFrame(C, direction);
+        frame = getBase().calcFrame(C, direction);
         C.p = frame.x;
         const Vec3 raised = frame.x + m_thickness * frame.N;
         if (!point.p.allFinite() || (raised - point.p).norm() <= 1e-12 * (getSize() + raised.norm())) return true;
-        C = m_base->findSurfacePoint(point.p);
+        C = getBase().findSurfacePoint(point.p);
     } else {
         Vec3 N;
-        const double height = m_base->calcHeight(point.p, N);
+        const double height = getBase().calcHeightAndNormal(point.p, N);
         // Near this surface the foot is about h below; elsewhere the base knows better.
-        C = m_base->findSurfacePoint(
+        C = getBase().findSurfacePoint(
             std::abs(height - m_thickness) < 0.5 * m_thickness ? Vec3(point.p - m_thickness * N) : point.p);
     }
-    if (!refineFoot(*m_base, point.p, C, frame)) return false;
-    frame = m_base->calcFrame(C, direction);
+    if (!refineFoot(getBase(), point.p, C, frame)) return false;
+    frame = getBase().calcFrame(C, direction);
     return true;
 }
 
@@ -205,8 +213,8 @@ SurfacePoint OffsetSurface::calcDisplacedPoint(const SurfacePoint& start, const 
     SurfacePoint C;
     DarbouxFrame frame;
     findFootOfPoint(start, displacement_S, C, frame);
-    C = m_base->calcDisplacedPoint(C, calcFootDisplacement(frame, m_thickness, displacement_S));
-    return {C.p + m_thickness * m_base->calcFrame(C, frame.t).N, C.uv, C.chart};
+    C = getBase().calcDisplacedPoint(C, calcFootDisplacement(frame, m_thickness, displacement_S));
+    return {C.p + m_thickness * getBase().calcFrame(C, frame.t).N, C.uv, C.chart};
 }
 
 DarbouxFrame OffsetSurface::calcFrame(const SurfacePoint& point, const Vec3& direction_S) const {
@@ -221,7 +229,7 @@ void OffsetSurface::shootGeodesic(const GeodesicStart& start, const GeodesicOpti
     SurfacePoint C;
     DarbouxFrame below;
     findFootOfPoint(start.point, start.tangent, C, below);
-    OffsetGeodesicEquations equations{*m_base, m_thickness, getSize(), m_hasCoordinates, C, {}};
+    OffsetGeodesicEquations equations{getBase(), m_thickness, getSize(), m_hasCoordinates, C, {}};
     OffsetGeodesicEquations::State y;
     equations.place(below, y);
     geodesic.P = equations.frame;
@@ -234,7 +242,7 @@ void OffsetSurface::shootGeodesic(const GeodesicStart& start, const GeodesicOpti
 double OffsetSurface::calcDomainMargin(const SurfacePoint& point) const {
     SurfacePoint C;
     DarbouxFrame frame;
-    return findFootOfPoint(point, Vec3::UnitX(), C, frame) ? m_base->calcDomainMargin(C) : -kInfinity;
+    return findFootOfPoint(point, Vec3::UnitX(), C, frame) ? getBase().calcDomainMargin(C) : -kInfinity;
 }
 
 }  // namespace tautline

@@ -8,7 +8,8 @@
 
 namespace tautline {
 
-// Declared extern in the header: the integrator is compiled once for each form, here.
+// Declared extern in the header: compiled once, here.
+template class ImplicitShape<Paraboloid>;
 template class ParametricShape<ParametricParaboloid>;
 template class ParametricTwin<ParametricParaboloid, Paraboloid>;
 

@@ -4,6 +4,10 @@
 #include "surfaces/shape_checks.h"
 
 namespace tautline {
+
+// Declared extern in the header: compiled once, here.
+template class ParametricShape<PolynomialPatch>;
+
 namespace {
 
 /** Row k: k-th derivatives of 1, s, s^2, ... by the plain coordinate, ds/du = slope. */

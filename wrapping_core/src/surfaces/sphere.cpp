@@ -8,7 +8,7 @@
 
 namespace tautline {
 
-// Declared extern in the header: the integrator is compiled once for each form, here.
+// Declared extern in the header: compiled once, here.
 template class ImplicitShape<Sphere>;
 template class ParametricShape<ParametricSphere>;
 template class ParametricTwin<ParametricSphere, Sphere>;
@@ -21,7 +21,7 @@ std::string Sphere::getDescription() const {
     return describeShape("sphere(radius=", m_radius, ")");
 }
 
-double Sphere::calcHeight(const Vec3& p_S, Vec3& N_S) const {
+double Sphere::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
     const double distance = p_S.norm();
     N_S = distance > 0 ? Vec3(p_S / distance) : Vec3(Vec3::UnitX());
     return distance - m_radius;
@@ -29,7 +29,7 @@ double Sphere::calcHeight(const Vec3& p_S, Vec3& N_S) const {
 
 SurfacePoint Sphere::findSurfacePoint(const Vec3& p_S) const {
     Vec3 N;
-    calcHeight(p_S, N);
+    calcHeightAndNormal(p_S, N);
     return {m_radius * N};
 }
 

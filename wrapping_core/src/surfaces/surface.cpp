@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "geodesics/arc_walker.h"
-#include "surfaces/low_place.h"
+#include "surfaces/arc_walker.h"
+#include "surfaces/closest_approach.h"
 #include "tautline/error.h"
 
 namespace tautline {
@@ -48,22 +48,9 @@ void Surface::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance&
 }
 
 double Surface::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
-    Vec3 N;
-    const double atA = calcHeight(A_S, N), atB = calcHeight(A_S + length * e_S, N);
-    if (const auto place = findLowPlace(*this, A_S, e_S, length, std::min(atA, atB))) return place->s;
+    const double atA = calcHeight(A_S), atB = calcHeight(A_S + length * e_S);
+    if (const auto place = findClosestApproach(*this, A_S, e_S, length, std::min(atA, atB))) return place->s;
     return atA <= atB ? 0 : length;
-}
-
-int Surface::countHoleCrossings(const Vec3&, const Vec3&) const {
-    return 0;
-}
-
-int countDiscCrossings(double radius, const Vec3& A_S, const Vec3& B_S) {
-    const bool isAbove = A_S.z() > 0;
-    if (isAbove == (B_S.z() > 0)) return 0;
-    const Vec3 crossing = A_S + A_S.z() / (A_S.z() - B_S.z()) * (B_S - A_S);
-    if (!(crossing.head<2>().norm() < radius)) return 0;
-    return isAbove ? -1 : 1;
 }
 
 void sampleGeodesic(const Surface& surface, const GeodesicStart& start, const GeodesicOptions& options, int count,

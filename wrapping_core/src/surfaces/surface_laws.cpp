@@ -91,10 +91,7 @@ public:
     }
 
 private:
-    double calcHeight(const Vec3& p) const {
-        Vec3 N;
-        return m_surface.calcHeight(p, N);
-    }
+    double calcHeight(const Vec3& p) const { return m_surface.calcHeight(p); }
     Geodesic shoot(const SurfacePoint& point, const Vec3& tangent, double length) const {
         return SampleChecker::shoot(m_surface, point, tangent, length);
     }
@@ -120,10 +117,10 @@ private:
 
     void checkHeight() {
         Vec3 N;
-        m_surface.calcHeight(m_point.p, N);
+        m_surface.calcHeightAndNormal(m_point.p, N);
         demand((N - m_frame.N).norm(), 1e-8, "3 (ascent of the height on the surface is N)");
         const double step = 1e-4 * std::min(m_size, 1 / m_curvature);
-        const double above = m_surface.calcHeight(m_point.p + step * m_frame.N, N),
+        const double above = m_surface.calcHeightAndNormal(m_point.p + step * m_frame.N, N),
                      below = calcHeight(m_point.p - step * m_frame.N);
         demand(std::abs(N.norm() - 1), 1e-12, "3 (N_S unit)");
         demand(-above, 0, "3 (height positive outside)");
@@ -241,13 +238,13 @@ private:
             Vec3 N;
             const Vec3 p =
                 m_point.p + far * m_size * m_sample.direction_S.normalized() - (far < 1 ? far * m_size : 0) * m_frame.N;
-            const double height = m_surface.calcHeight(p, N);
+            const double height = m_surface.calcHeightAndNormal(p, N);
             demand(std::isfinite(height) && std::abs(N.norm() - 1) < 1e-9 ? 0 : 1, 0,
                    "12 (height finite, N_S unit anywhere)");
             demand(m_surface.findSurfacePoint(p).p.allFinite() ? 0 : 1, 0, "12 (surface point finite anywhere)");
         }
         Vec3 N;
-        const bool isFinite = std::isfinite(m_surface.calcHeight(Vec3::Zero(), N)) && N.allFinite() &&
+        const bool isFinite = std::isfinite(m_surface.calcHeightAndNormal(Vec3::Zero(), N)) && N.allFinite() &&
                               m_surface.findSurfacePoint(Vec3::Zero()).p.allFinite();
         demand(isFinite ? 0 : 1, 0, "12 (the origin too)");
     }
@@ -343,8 +340,7 @@ private:
 
     /** Heights are the same to first order only, so what is even in the distance from the surface is left free. */
     void checkHeights() {
-        Vec3 N;
-        const auto calcPair = [&](const Vec3& p) { return Vec2(m_first.calcHeight(p, N), m_second.calcHeight(p, N)); };
+        const auto calcPair = [&](const Vec3& p) { return Vec2(m_first.calcHeight(p), m_second.calcHeight(p)); };
         const auto demandOneSign = [&](const Vec2& pair) {
             const bool isOnSurface = pair.cwiseAbs().maxCoeff() <= exact() * m_size;
             demand(isOnSurface ? 0 : -pair[0] * pair[1], 0, "15 (heights of one sign)");

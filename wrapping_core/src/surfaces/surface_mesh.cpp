@@ -95,8 +95,7 @@ private:
 
     double getHeight(const Index& node) {
         const auto [found, isNew] = m_heights.emplace(node, 0);
-        Vec3 N;
-        if (isNew) found->second = m_surface.calcHeight(calcNode(node), N);
+        if (isNew) found->second = m_surface.calcHeight(calcNode(node));
         return found->second;
     }
 
@@ -240,9 +239,8 @@ std::vector<Vec3> findSeeds(const Surface& surface, const std::vector<Vec3>& nea
     std::vector<Vec3> seeds;
     for (const Vec3& start : starts) {
         SurfacePoint point = surface.findSurfacePoint(start);
-        Vec3 N;
         // A search that did not arrive leaves a height far above rounding.
-        if (!point.p.allFinite() || !(std::abs(surface.calcHeight(point.p, N)) < 1e-6 * size)) continue;
+        if (!point.p.allFinite() || !(std::abs(surface.calcHeight(point.p)) < 1e-6 * size)) continue;
         if (moveIntoDomain(surface, point)) seeds.push_back(point.p);
     }
     return seeds;

@@ -7,7 +7,7 @@
 
 namespace tautline {
 
-// Declared extern in the header: the integrator is compiled once for each form, here.
+// Declared extern in the header: compiled once, here.
 template class ImplicitShape<Torus>;
 template class ParametricShape<ParametricTorus>;
 template class ParametricTwin<ParametricTorus, Torus>;
@@ -23,7 +23,7 @@ std::string Torus::getDescription() const {
     return describeShape("torus(ring radius=", m_ringRadius, ", tube radius=", m_tubeRadius, ")");
 }
 
-double Torus::calcHeight(const Vec3& p_S, Vec3& N_S) const {
+double Torus::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
     const double rho = std::hypot(p_S.x(), p_S.y());
     const Vec3 radial = rho > 0 ? Vec3(p_S.x() / rho, p_S.y() / rho, 0) : Vec3(Vec3::UnitX());
     const Vec3 fromTube = p_S - m_ringRadius * radial;

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "tautline/surfaces/darboux_frame.h"
+#include "tautline/geodesics/darboux_frame.h"
 
 namespace tautline {
 

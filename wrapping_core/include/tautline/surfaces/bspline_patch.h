@@ -42,4 +42,6 @@ private:
     Eigen::Matrix3Xd m_controlPoints;
 };
 
+extern template class ParametricShape<BSplinePatch>;
+
 }  // namespace tautline

@@ -46,6 +46,8 @@ private:
     double m_radius, m_length, m_capHeight;
 };
 
+extern template class ImplicitShape<Capsule>;
+
 /** The same capsule in three charts: (rho(v) cos u, rho(v) sin u, v) about the side, chart 0, and about the tips,
 charts 1 (above) and 2, z as a function of x and y. Each ends where its slope grows without bound, beyond where the next
 one has taken over. */

@@ -40,6 +40,8 @@ private:
     double m_halfAngle, m_radius, m_edgeRadius, m_sine, m_cosine;
 };
 
+extern template class ImplicitShape<Cone>;
+
 /** The same cone: v (sin(alpha) cos u, sin(alpha) sin u, cos(alpha)), v the distance from the apex; u counts turns. */
 class ParametricCone final : public ParametricTwin<ParametricCone, Cone> {
 public:

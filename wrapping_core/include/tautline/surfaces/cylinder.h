@@ -23,7 +23,7 @@ public:
         return {(p.x() * p.x() + p.y() * p.y() - m_radius * m_radius) / (2 * m_radius), hessian.cwiseProduct(p),
                 hessian};
     }
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
     DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override;
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
@@ -42,7 +42,7 @@ public:
     /** @param radius   [m], positive; InvalidInput otherwise */
     explicit ParametricCylinder(double radius) : ParametricTwin(Cylinder(radius)) {}
 
-    double getRadius() const { return m_twin.getRadius(); }
+    double getRadius() const { return getTwin().getRadius(); }
     ParametricValue calcParametric(const Vec2& uv, int) const {
         const double c = getRadius() * std::cos(uv[0]), s = getRadius() * std::sin(uv[0]);
         return {{c, s, uv[1]}, {-s, c, 0}, Vec3::UnitZ(), {-c, -s, 0}, Vec3::Zero(), Vec3::Zero()};
@@ -51,7 +51,7 @@ public:
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
         GeodesicStart from = start;
         if (!from.point.p.allFinite()) from.point = resolve(start.point);  // given by (u, v) alone
-        m_twin.shootGeodesic(from, options, geodesic);
+        getTwin().shootGeodesic(from, options, geodesic);
         const double hoop = geodesic.P.t.y() * geodesic.P.N.x() - geodesic.P.t.x() * geodesic.P.N.y();
         geodesic.endPoint.uv = from.point.uv + start.length * Vec2(hoop / getRadius(), geodesic.P.t.z());
     }

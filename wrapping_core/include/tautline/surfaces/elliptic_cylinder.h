@@ -18,6 +18,8 @@ private:
     Vec2 m_semiAxes;
 };
 
+extern template class ImplicitShape<EllipticCylinder>;
+
 /** The same cylinder: (a cos u, b sin u, v); u counts turns. */
 class ParametricEllipticCylinder final : public ParametricTwin<ParametricEllipticCylinder, EllipticCylinder> {
 public:
@@ -25,12 +27,13 @@ public:
         : ParametricTwin(EllipticCylinder(semiAxisX, semiAxisY)) {}
 
     ParametricValue calcParametric(const Vec2& uv, int) const {
-        const double a = m_twin.getSemiAxes()[0], b = m_twin.getSemiAxes()[1], c = std::cos(uv[0]), s = std::sin(uv[0]);
+        const double a = getTwin().getSemiAxes()[0], b = getTwin().getSemiAxes()[1], c = std::cos(uv[0]),
+                     s = std::sin(uv[0]);
         return {{a * c, b * s, uv[1]}, {-a * s, b * c, 0}, Vec3::UnitZ(),
                 {-a * c, -b * s, 0},   Vec3::Zero(),       Vec3::Zero()};
     }
     Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
-        return {std::atan2(p_S.y() / m_twin.getSemiAxes()[1], p_S.x() / m_twin.getSemiAxes()[0]), p_S.z()};
+        return {std::atan2(p_S.y() / getTwin().getSemiAxes()[1], p_S.x() / getTwin().getSemiAxes()[0]), p_S.z()};
     }
 };
 

@@ -21,15 +21,15 @@ public:
     double getSize() const override { return m_size; }
     std::string getDescription() const override;
 
-    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
-        return countDiscCrossings(m_ringRadius, A_S, B_S);
-    }
+    std::optional<Hole> getHole() const override { return Hole(m_ringRadius); }
 
     ImplicitValue calcImplicit(const Vec3& p) const { return calcTorusForm(p, m_ringRadius, m_radial, m_axial); }
 
 private:
     double m_ringRadius, m_radial, m_axial, m_size;
 };
+
+extern template class ImplicitShape<EllipticTorus>;
 
 /** The same torus in ring angle u and section angle v:
 
@@ -40,10 +40,12 @@ public:
         : ParametricTwin(EllipticTorus(ringRadius, radialSemiAxis, axialSemiAxis)) {}
 
     ParametricValue calcParametric(const Vec2& uv, int) const {
-        return calcTorusPoint(uv, m_twin.getRingRadius(), m_twin.getRadialSemiAxis(), m_twin.getAxialSemiAxis());
+        return calcTorusPoint(uv, getTwin().getRingRadius(), getTwin().getRadialSemiAxis(),
+                              getTwin().getAxialSemiAxis());
     }
     Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
-        return calcTorusParameters(p_S, m_twin.getRingRadius(), m_twin.getRadialSemiAxis(), m_twin.getAxialSemiAxis());
+        return calcTorusParameters(p_S, getTwin().getRingRadius(), getTwin().getRadialSemiAxis(),
+                                   getTwin().getAxialSemiAxis());
     }
 };
 

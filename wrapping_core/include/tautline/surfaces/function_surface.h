@@ -38,7 +38,7 @@ public:
         return *this;
     }
     /** Without the Hessian where that costs. */
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
     ImplicitValue calcImplicit(const Vec3& p) const;
 
 private:
@@ -53,6 +53,8 @@ private:
     HessianFunction m_hessian;
     FullFunction m_full;
 };
+
+extern template class ImplicitShape<ImplicitFunctionSurface>;
 
 /** An implicit surface with exact derivatives from one formula, callable with three numbers of any type:
 
@@ -98,6 +100,8 @@ private:
     FullFunction m_full;
     NearbyGrid m_grid;
 };
+
+extern template class ParametricShape<ParametricFunctionSurface>;
 
 /** A parametric surface with exact derivatives from one formula, callable with two numbers of any type, that returns
 the three coordinates as std::array. */

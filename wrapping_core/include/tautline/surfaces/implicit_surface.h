@@ -128,7 +128,7 @@ integrator calls it inline. */
 template <class Derived>
 class ImplicitShape : public Surface {
 public:
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override {
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
         const auto value = derived().calcImplicit(p_S);
         const double g = value.gradient.norm();
         if (!(g > 0)) {  // the centre of a quadric: as deep as can be, any direction out
@@ -180,7 +180,7 @@ protected:
         double previous = kInfinity;
         for (int i = 0; i < kMaxIterations; ++i) {
             Vec3 N;
-            const double height = calcHeight(p, N);
+            const double height = calcHeightAndNormal(p, N);
             if (!(std::abs(height) > tolerance) ||
                 (std::abs(height) < 1e-14 * getSize() && std::abs(height) >= previous))
                 break;

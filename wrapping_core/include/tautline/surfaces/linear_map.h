@@ -22,6 +22,7 @@ public:
     }
 
     const Mat3& getMatrix() const { return m_matrix; }
+    const Mat3& getInverse() const { return m_inverse; }
     /** Least singular value: the factor along the direction that is stretched least. */
     double getLeastFactor() const { return m_leastFactor; }
     std::string getDescription() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "tautline/surfaces/implicit_surface.h"
+#include "tautline/surfaces/surface_decorator.h"
 
 namespace tautline {
 
@@ -14,29 +15,22 @@ whatever its kind. Geodesics are integrated on the base: the foot, with (u, v) i
 that both share; only the start is projected. As an implicit surface it is the zero set of f(p) = d(p) - h, d the signed
 distance from the base; where there are closed forms (Sphere of radius r + h) those are faster. A concave base needs
 kappa h < 1, else the offset has edges: not checked. */
-class OffsetSurface final : public ImplicitShape<OffsetSurface> {
+class OffsetSurface final : public SurfaceDecorator<ImplicitShape<OffsetSurface>, std::shared_ptr<const Surface>> {
 public:
     /** @param base        not null; InvalidInput otherwise
     @param thickness   h [m], >= 0 */
     OffsetSurface(std::shared_ptr<const Surface> base, double thickness);
 
     double getThickness() const { return m_thickness; }
-    const Surface& getBase() const { return *m_base; }
-    double getSize() const override { return m_base->getSize() + m_thickness; }
+    double getSize() const override { return getBase().getSize() + m_thickness; }
     std::string getDescription() const override;
-    bool isConvex() const override { return m_base->isConvex(); }
     double calcDomainMargin(const SurfacePoint& point) const override;
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
     /** With the (u, v) of its foot, if the base has such. */
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
     SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vec3& displacement_S) const override;
     DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override;
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
-
-    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
-        return m_base->countHoleCrossings(A_S, B_S);
-    }
-    Vec3 getHoleAxis() const override { return m_base->getHoleAxis(); }
 
     ImplicitValue calcImplicit(const Vec3& p) const;
 
@@ -44,9 +38,10 @@ private:
     /** Foot of a point of this surface, and the base's frame there with t along `direction`. */
     bool findFootOfPoint(const SurfacePoint& point, const Vec3& direction, SurfacePoint& C, DarbouxFrame& frame) const;
 
-    std::shared_ptr<const Surface> m_base;
     double m_thickness;
     bool m_hasCoordinates;
 };
+
+extern template class ImplicitShape<OffsetSurface>;
 
 }  // namespace tautline

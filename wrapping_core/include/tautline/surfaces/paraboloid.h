@@ -30,6 +30,8 @@ private:
     double m_A, m_B;
 };
 
+extern template class ImplicitShape<Paraboloid>;
+
 /** The same paraboloid with u = x, v = y. */
 class ParametricParaboloid final : public ParametricTwin<ParametricParaboloid, Paraboloid> {
 public:
@@ -37,7 +39,7 @@ public:
 
     double getNormalSign() const { return -1; }  // xu x xv points up, into the bowl
     ParametricValue calcParametric(const Vec2& uv, int) const {
-        const double A = m_twin.getA(), B = m_twin.getB(), u = uv[0], v = uv[1];
+        const double A = getTwin().getA(), B = getTwin().getB(), u = uv[0], v = uv[1];
         return {{u, v, u * u / A + v * v / B},
                 {1, 0, 2 * u / A},
                 {0, 1, 2 * v / B},

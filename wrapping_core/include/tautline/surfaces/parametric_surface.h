@@ -155,7 +155,7 @@ public:
     int chooseChart(const Vec3& /*p_S*/, const Vec3& /*t_S*/, int /*current*/) const { return 0; }
 
     /** Signed distance from the nearest point. */
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override {
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
         const SurfacePoint foot = findNearest(p_S);
         const ParametricValue s = derived().calcParametric(foot.uv, foot.chart);
         N_S = derived().getNormalSign() * s.xu.cross(s.xv).normalized();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "tautline/surfaces/parametric_surface.h"
+#include "tautline/surfaces/surface_decorator.h"
 
 namespace tautline {
 
@@ -10,34 +11,30 @@ namespace tautline {
 coordinates (heights, feet, domain) is asked of the twin, which is cheaper; `calcNearbyParameters` of Derived must
 be exact on the surface. Curvatures and geodesics are the parametric form's own. */
 template <class Derived, class Twin>
-class ParametricTwin : public ParametricShape<Derived> {
+class ParametricTwin : public SurfaceDecorator<ParametricShape<Derived>, Twin> {
 public:
-    const Twin& getImplicitTwin() const { return m_twin; }
-
-    std::string getDescription() const override { return "parametric " + m_twin.getDescription(); }
-    double getSize() const override { return m_twin.getSize(); }
-    bool isConvex() const override { return m_twin.isConvex(); }
+    std::string getDescription() const override { return "parametric " + getTwin().getDescription(); }
     double calcDomainMargin(const SurfacePoint& point) const override {
-        return point.p.allFinite() ? m_twin.calcDomainMargin(point) : m_twin.calcDomainMargin(this->resolve(point));
+        return getTwin().calcDomainMargin(point.p.allFinite() ? point : this->resolve(point));
     }
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override { return m_twin.calcHeight(p_S, N_S); }
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
+        return getTwin().calcHeightAndNormal(p_S, N_S);
+    }
     double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override {
-        return m_twin.findLowestPoint(A_S, e_S, length);
+        return getTwin().findLowestPoint(A_S, e_S, length);
     }
-    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
-        return m_twin.countHoleCrossings(A_S, B_S);
-    }
-    Vec3 getHoleAxis() const override { return m_twin.getHoleAxis(); }
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override {
-        return calcCoordinates(m_twin.findSurfacePoint(p_S).p);
+        return calcCoordinates(getTwin().findSurfacePoint(p_S).p);
     }
     void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const override {
-        m_twin.findLineClearance(A_S, e_S, clearance);
+        getTwin().findLineClearance(A_S, e_S, clearance);
         if (clearance.found) clearance.C = calcCoordinates(clearance.C.p);
     }
 
 protected:
-    explicit ParametricTwin(Twin twin) : m_twin(std::move(twin)) {}
+    explicit ParametricTwin(Twin twin) : SurfaceDecorator<ParametricShape<Derived>, Twin>(std::move(twin)) {}
+
+    const Twin& getTwin() const { return this->getBase(); }
 
     /** Adds (u, v) and chart to a point of the surface. */
     SurfacePoint calcCoordinates(const Vec3& p_S) const {
@@ -46,8 +43,6 @@ protected:
         const Vec2 uv = derived.calcNearbyParameters(p_S, chart);
         return {derived.calcParametric(uv, chart).x, uv, chart};
     }
-
-    Twin m_twin;
 };
 
 }  // namespace tautline

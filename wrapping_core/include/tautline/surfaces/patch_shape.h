@@ -50,8 +50,8 @@ public:
     }
 
     /** Of a height patch: z - f(x, y) over the length of its gradient; else the distance. */
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override {
-        if (!m_isHeightPatch) return ParametricShape<Derived>::calcHeight(p_S, N_S);
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
+        if (!m_isHeightPatch) return ParametricShape<Derived>::calcHeightAndNormal(p_S, N_S);
         const ParametricValue s = calcParametric(p_S.head<2>(), 0);
         const Vec3 gradient(-s.xu.z(), -s.xv.z(), 1);
         const double slope = gradient.norm();

@@ -17,7 +17,7 @@ public:
     bool isConvex() const override { return true; }
 
     DiagonalImplicitValue calcImplicit(const Vec3& p) const { return {p.z(), Vec3::UnitZ(), Vec3::Zero()}; }
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override {
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
         N_S = Vec3::UnitZ();
         return p_S.z();
     }
@@ -31,6 +31,8 @@ private:
     double m_size;
 };
 
+extern template class ImplicitShape<Plane>;
+
 /** The same plane with u = x, v = y. */
 class ParametricPlane final : public ParametricTwin<ParametricPlane, Plane> {
 public:
@@ -41,7 +43,7 @@ public:
     }
     Vec2 calcNearbyParameters(const Vec3& p_S, int) const { return p_S.head<2>(); }
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
-        m_twin.shootGeodesic({resolve(start.point), start.tangent, start.length}, options, geodesic);
+        getTwin().shootGeodesic({resolve(start.point), start.tangent, start.length}, options, geodesic);
         geodesic.endPoint = calcCoordinates(geodesic.Q.x);
     }
 };

@@ -35,4 +35,6 @@ private:
     Vec2 m_middle, m_inverseHalf;
 };
 
+extern template class ParametricShape<PolynomialPatch>;
+
 }  // namespace tautline

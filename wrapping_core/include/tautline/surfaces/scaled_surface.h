@@ -12,29 +12,29 @@ so that S keeps its orientation. Convex bases stay convex; holes and domains go 
 #include "tautline/surfaces/implicit_surface.h"
 #include "tautline/surfaces/linear_map.h"
 #include "tautline/surfaces/parametric_surface.h"
+#include "tautline/surfaces/surface_decorator.h"
 
 namespace tautline {
 
 /** What scaled surfaces of both forms share; `Form` is the ImplicitShape or ParametricShape that they derive from. */
 template <class Form, class Base>
-class ScaledForm : public Form {
+class ScaledForm : public SurfaceDecorator<Form, Base> {
 public:
     const Mat3& getMatrix() const { return m_map.getMatrix(); }
-    double getSize() const override { return m_base.getSize() * m_map.getLeastFactor(); }
+    double getSize() const override { return this->getBase().getSize() * m_map.getLeastFactor(); }
     std::string getDescription() const override {
-        return m_base.getDescription() + " scaled by " + m_map.getDescription();
+        return this->getBase().getDescription() + " scaled by " + m_map.getDescription();
     }
-    bool isConvex() const override { return m_base.isConvex(); }
+    std::optional<Hole> getHole() const override {
+        const std::optional<Hole> hole = this->getBase().getHole();
+        return hole ? std::make_optional(hole->mappedBy(m_map.getInverse())) : std::nullopt;
+    }
     double calcDomainMargin(const SurfacePoint& point) const override {
-        return m_base.calcDomainMargin({m_map.mapBack(point.p), point.uv, point.chart});
-    }
-    Vec3 getHoleAxis() const override { return m_map.mapGradient(m_base.getHoleAxis()).normalized(); }
-    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
-        return m_base.countHoleCrossings(m_map.mapBack(A_S), m_map.mapBack(B_S));
+        return this->getBase().calcDomainMargin({m_map.mapBack(point.p), point.uv, point.chart});
     }
     /** A height of the base is a function whose gradient there is unit: first order, and exact in sign. */
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override {
-        const double height = m_base.calcHeight(m_map.mapBack(p_S), N_S);
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
+        const double height = this->getBase().calcHeightAndNormal(m_map.mapBack(p_S), N_S);
         N_S = m_map.mapGradient(N_S);
         const double slope = N_S.norm();
         N_S /= slope;
@@ -42,9 +42,8 @@ public:
     }
 
 protected:
-    ScaledForm(Base base, const LinearMap& map) : m_base(std::move(base)), m_map(map) {}
+    ScaledForm(Base base, const LinearMap& map) : SurfaceDecorator<Form, Base>(std::move(base)), m_map(map) {}
 
-    Base m_base;
     LinearMap m_map;
 };
 
@@ -58,7 +57,7 @@ public:
 
     /** By the chain rule; f stays a length by the least factor. */
     ImplicitValue calcImplicit(const Vec3& p) const {
-        const ImplicitValue base = this->m_base.calcImplicit(this->m_map.mapBack(p));
+        const ImplicitValue base = this->getBase().calcImplicit(this->m_map.mapBack(p));
         const double least = this->m_map.getLeastFactor();
         return {least * base.f, least * this->m_map.mapGradient(base.gradient),
                 least * this->m_map.mapHessian(base.hessian)};
@@ -74,16 +73,16 @@ public:
         : ScaledForm<ParametricShape<ScaledParametricSurface>, Base>(std::move(base), map) {}
 
     ParametricValue calcParametric(const Vec2& uv, int chart) const {
-        const ParametricValue s = this->m_base.calcParametric(uv, chart);
+        const ParametricValue s = this->getBase().calcParametric(uv, chart);
         const LinearMap& map = this->m_map;
         return {map.map(s.x), map.map(s.xu), map.map(s.xv), map.map(s.xuu), map.map(s.xuv), map.map(s.xvv)};
     }
     Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const {
-        return this->m_base.calcNearbyParameters(this->m_map.mapBack(p_S), chart);
+        return this->getBase().calcNearbyParameters(this->m_map.mapBack(p_S), chart);
     }
-    double getNormalSign() const { return this->m_base.getNormalSign(); }
+    double getNormalSign() const { return this->getBase().getNormalSign(); }
     int chooseChart(const Vec3& p_S, const Vec3& t_S, int current) const {
-        return this->m_base.chooseChart(this->m_map.mapBack(p_S), this->m_map.mapBack(t_S), current);
+        return this->getBase().chooseChart(this->m_map.mapBack(p_S), this->m_map.mapBack(t_S), current);
     }
 };
 

@@ -22,7 +22,7 @@ public:
     DiagonalImplicitValue calcImplicit(const Vec3& p) const {
         return {(p.squaredNorm() - m_radius * m_radius) / (2 * m_radius), p / m_radius, Vec3::Constant(1 / m_radius)};
     }
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
     DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override;
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
@@ -40,7 +40,7 @@ public:
     /** @param radius   [m], positive; InvalidInput otherwise */
     explicit ParametricSphere(double radius) : ParametricTwin(Sphere(radius)), m_charts(Vec3::Constant(radius)) {}
 
-    double getRadius() const { return m_twin.getRadius(); }
+    double getRadius() const { return getTwin().getRadius(); }
     ParametricValue calcParametric(const Vec2& uv, int chart) const { return m_charts.calcParametric(uv, chart); }
     ParametricValue calcTurned(const Vec2& uv, int chart) const { return m_charts.calcTurned(uv, chart); }
     Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const { return m_charts.calcNearbyParameters(p_S, chart); }
@@ -50,7 +50,7 @@ public:
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
         GeodesicStart from = start;
         if (!from.point.p.allFinite()) from.point = resolve(start.point);  // given by (u, v) alone
-        m_twin.shootGeodesic(from, options, geodesic);
+        getTwin().shootGeodesic(from, options, geodesic);
         geodesic.endPoint = calcCoordinates(geodesic.Q.x);
     }
 

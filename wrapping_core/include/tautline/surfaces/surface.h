@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "tautline/geodesics/geodesic.h"
+#include "tautline/surfaces/hole.h"
 
 namespace tautline {
 
@@ -44,7 +46,12 @@ public:
     /** Height of a point above the surface [m]: exact in sign, first order in size near the surface.
     @param p_S   any point
     @param N_S   unit outward direction of steepest ascent at p_S */
-    virtual double calcHeight(const Vec3& p_S, Vec3& N_S) const = 0;
+    virtual double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const = 0;
+
+    double calcHeight(const Vec3& p_S) const {
+        Vec3 N_S;
+        return calcHeightAndNormal(p_S, N_S);
+    }
 
     /** A surface point near p_S: the foot of the steepest descent, the nearest point if p_S is close. */
     virtual SurfacePoint findSurfacePoint(const Vec3& p_S) const = 0;
@@ -77,12 +84,8 @@ public:
     presses on it everywhere: such checks are then skipped. */
     virtual bool isConvex() const { return false; }
 
-    /** How often the segment A B passes the surface's hole: 1 along the hole's axis, -1 against it. A disc about the
-    origin and across the axis, whose rim lies inside the tube, spans the hole. */
-    virtual int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const;
-
-    /** Unit normal of that disc. */
-    virtual Vec3 getHoleAxis() const { return Vec3::UnitZ(); }
+    /** The hole that a string can be threaded through, if the surface has one. */
+    virtual std::optional<Hole> getHole() const { return std::nullopt; }
 
     /** How far inside the domain on which the surface is defined the point lies: smooth across the domain's edge, there
     zero, negative outside, in a unit of the surface's own choice; infinite where there is no edge. */
@@ -98,9 +101,6 @@ public:
         return false;
     }
 };
-
-/** countHoleCrossings() for a hole spanned by the disc rho < radius in the plane z = 0. */
-int countDiscCrossings(double radius, const Vec3& A_S, const Vec3& B_S);
 
 /** Points along a geodesic, ends included, by shooting from each to the next. Needs count >= 2.
 @param points_S   resized to `count` */

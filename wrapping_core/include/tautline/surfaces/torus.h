@@ -22,10 +22,8 @@ public:
     ImplicitValue calcImplicit(const Vec3& p) const {
         return calcTorusForm(p, m_ringRadius, m_tubeRadius, m_tubeRadius);
     }
-    int countHoleCrossings(const Vec3& A_S, const Vec3& B_S) const override {
-        return countDiscCrossings(m_ringRadius, A_S, B_S);
-    }
-    double calcHeight(const Vec3& p_S, Vec3& N_S) const override;
+    std::optional<Hole> getHole() const override { return Hole(m_ringRadius); }
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
 
 private:
     double m_ringRadius, m_tubeRadius;
@@ -41,10 +39,11 @@ public:
     ParametricTorus(double ringRadius, double tubeRadius) : ParametricTwin(Torus(ringRadius, tubeRadius)) {}
 
     ParametricValue calcParametric(const Vec2& uv, int) const {
-        return calcTorusPoint(uv, m_twin.getRingRadius(), m_twin.getTubeRadius(), m_twin.getTubeRadius());
+        return calcTorusPoint(uv, getTwin().getRingRadius(), getTwin().getTubeRadius(), getTwin().getTubeRadius());
     }
     Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
-        return calcTorusParameters(p_S, m_twin.getRingRadius(), m_twin.getTubeRadius(), m_twin.getTubeRadius());
+        return calcTorusParameters(p_S, getTwin().getRingRadius(), getTwin().getTubeRadius(),
+                                   getTwin().getTubeRadius());
     }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Where a straight line comes low over a surface: the search for it, and what a path makes of what it finds. */
-#include "surfaces/low_place.h"
+#include "surfaces/closest_approach.h"
 
 #include <gtest/gtest.h>
 
@@ -20,14 +20,13 @@ namespace {
 double calcLowestOfMany(const Surface& surface, const Vec3& A, const Vec3& e, double length) {
     constexpr int kSamples = 4000;
     double lowest = kInfinity;
-    Vec3 N;
-    for (int i = 0; i <= kSamples; ++i) lowest = std::min(lowest, surface.calcHeight(A + i * length / kSamples * e, N));
+    for (int i = 0; i <= kSamples; ++i) lowest = std::min(lowest, surface.calcHeight(A + i * length / kSamples * e));
     return lowest;
 }
 
 // 2026-11-25: a layer over a sheared torus read clear where the line ran through it: the lowest place over the base,
 // led on by Newton's method, ended at the line's end.
-TEST(LowPlace, IsBelowTheSurfaceWhereManySamplesSayFromNearAndFromFar) {
+TEST(ClosestApproach, IsBelowTheSurfaceWhereManySamplesSayFromNearAndFromFar) {
     int below = 0;
     for (const SurfaceCase& c : makeSurfaceCases()) {
         const bool hasRings = c.name.find("Torus") != std::string::npos;
@@ -42,8 +41,7 @@ TEST(LowPlace, IsBelowTheSurfaceWhereManySamplesSayFromNearAndFromFar) {
                 const Vec3 A = middle - reach * size * e;
                 const double length = 2 * reach * size;
                 const double s = c.surface->findLowestPoint(A, e, length);
-                Vec3 N;
-                const double found = c.surface->calcHeight(A + s * e, N);
+                const double found = c.surface->calcHeight(A + s * e);
                 // Heights are exact in sign and near the surface, elsewhere of the right magnitude (surface.h).
                 const double lowest = calcLowestOfMany(*c.surface, A, e, length);
                 EXPECT_TRUE(found <= 1.5 * std::abs(lowest)) << c.name << " " << reach << " " << found << " " << lowest;
@@ -54,23 +52,23 @@ TEST(LowPlace, IsBelowTheSurfaceWhereManySamplesSayFromNearAndFromFar) {
     EXPECT_GT(below, 100);
 }
 
-TEST(LowPlace, IsNoneAtATangentEnd) {
+TEST(ClosestApproach, IsNoneAtATangentEnd) {
     const Torus torus(1, 0.2);
     const Vec3 top(1, 0, 0.2), e(1, 0, 0);  // leaves the tube outwards
-    EXPECT_FALSE(findLowPlace(torus, top, e, 5, 0.2));
-    EXPECT_FALSE(findLowPlace(torus, top + 5 * e, -e, 5, 0.2));
-    const auto across = findLowPlace(torus, top, -e, 5, 0.2);  // and inwards, over the other side of the tube
+    EXPECT_FALSE(findClosestApproach(torus, top, e, 5, 0.2));
+    EXPECT_FALSE(findClosestApproach(torus, top + 5 * e, -e, 5, 0.2));
+    const auto across = findClosestApproach(torus, top, -e, 5, 0.2);  // and inwards, over the other side of the tube
     ASSERT_TRUE(across);
     EXPECT_NEAR(across->s, 2, 1e-6);
     EXPECT_NEAR(across->height, 0, 1e-12);
 }
 
-TEST(LowPlace, EndsTheSearchOnLinesBeyondAllMeasure) {
+TEST(ClosestApproach, EndsTheSearchOnLinesBeyondAllMeasure) {
     const Torus torus(1, 0.2);
     for (const double length : {1e8, 1e16, 1e30, 1e300})
         for (const Vec3& e : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0.6, 0, 0.8)}) {
             const Vec3 top(1, 0, 0.2);
-            const auto place = findLowPlace(torus, top, e, length, 0.2);
+            const auto place = findClosestApproach(torus, top, e, length, 0.2);
             EXPECT_TRUE(!place || std::isfinite(place->height));
             EXPECT_TRUE(std::isfinite(torus.findLowestPoint(top - length * e, e, length)));
         }
@@ -87,7 +85,7 @@ PathScene makeTiltingRing(double tilt) {
 
 // 2026-11-25: solved, straight through the tube, 0.08 of its radius deep: the place that was watched was on the
 // other side of the ring, and none of seventeen heights along the line was low.
-TEST(LowPlace, ARingThatTiltsInOneStepIsTouchedOnTheSideThatWasNotWatched) {
+TEST(ClosestApproach, ARingThatTiltsInOneStepIsTouchedOnTheSideThatWasNotWatched) {
     for (const double dip : {1e-6, 4e-4, 2e-3}) {
         const double tilt = std::asin(0.05 - 0.02 + dip);
         PathSolver solver;
@@ -106,7 +104,7 @@ TEST(LowPlace, ARingThatTiltsInOneStepIsTouchedOnTheSideThatWasNotWatched) {
 }
 
 // 2026-11-25: solved, straight through: 400 samples, each 25 sizes from the next.
-TEST(LowPlace, ABodyIsMetByLinesFromTenThousandSizesAway) {
+TEST(ClosestApproach, ABodyIsMetByLinesFromTenThousandSizesAway) {
     Random random(5);
     int solved = 0;
     for (int i = 0; i < 40; ++i) {
@@ -122,7 +120,7 @@ TEST(LowPlace, ABodyIsMetByLinesFromTenThousandSizesAway) {
 
 // 2026-11-25: the string was on the other side of an elliptic cylinder that rose by two sizes in one step, and passed
 // through one that rose by three.
-TEST(LowPlace, AStringStaysAboveACylinderThatRisesInOneStep) {
+TEST(ClosestApproach, AStringStaysAboveACylinderThatRisesInOneStep) {
     const std::shared_ptr<const Surface> surfaces[] = {
         std::make_shared<Cylinder>(0.5), std::make_shared<EllipticCylinder>(0.8, 0.5),
         std::make_shared<ParametricEllipticCylinder>(0.8, 0.5),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surfaces/low_place.h"
+#include "surfaces/closest_approach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,12 @@ public:
 
     Sample operator()(double s) const {
         Vec3 N;
-        const double height = m_surface.calcHeight(m_A + s * m_e, N);
+        const double height = m_surface.calcHeightAndNormal(m_A + s * m_e, N);
         return {s, height, N.dot(m_e)};
     }
 
     /** Between a sample where the line goes down and one where it comes up again: regula falsi (Illinois). */
-    LowPlace findMinimum(Sample down, Sample up) const {
+    ClosestApproach findMinimum(Sample down, Sample up) const {
         constexpr int kMaxIterations = 60;
         const double tolerance = 1e-9 * m_surface.getSize();
         double slopeDown = down.slope, slopeUp = up.slope;
@@ -58,19 +58,19 @@ private:
 
 }  // namespace
 
-std::optional<LowPlace> findLowPlace(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
-                                     double bound) {
+std::optional<ClosestApproach> findClosestApproach(const Surface& surface, const Vec3& A_S, const Vec3& e_S,
+                                                   double length, double bound) {
     const LineHeights calc(surface, A_S, e_S);
     const double size = surface.getSize();
     double leastStep = size / 4;
     int numSteps = 0;
-    std::optional<LowPlace> lowest;
+    std::optional<ClosestApproach> lowest;
     std::optional<Sample> down;  // the last sample from which the line goes down
     for (Sample here = calc(0);;) {
         if (here.slope < -kLevel) down = here;
         if (here.slope > kLevel && down) {
             const bool mayBeLower = (down->height + here.height) / 2 - (here.s - down->s) < bound;
-            const LowPlace place = mayBeLower ? calc.findMinimum(*down, here) : LowPlace{here.s, bound};
+            const ClosestApproach place = mayBeLower ? calc.findMinimum(*down, here) : ClosestApproach{here.s, bound};
             if (place.height < bound) lowest = place, bound = place.height;
             down.reset();
         }

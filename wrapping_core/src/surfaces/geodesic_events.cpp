@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tautline/geodesics/geodesic_events.h"
+#include "tautline/surfaces/geodesic_events.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "geodesics/arc_walker.h"
+#include "surfaces/arc_walker.h"
 
 namespace tautline {
 namespace {

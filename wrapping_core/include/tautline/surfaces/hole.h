@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "tautline/types.h"
+
+namespace tautline {
+
+/** A hole through a surface, as that of a ring. A flat disc about the origin of S spans it: an ellipse whose rim lies
+inside the tube. */
+class Hole {
+public:
+    /** Spanned by the disc rho < radius in the plane z = 0. */
+    explicit Hole(double radius) : m_toUnitDisc(Mat3::Identity() / radius) {}
+
+    /** The hole of the surface under the linear map whose inverse is given. */
+    Hole mappedBy(const Mat3& inverse) const { return Hole(Mat3(m_toUnitDisc * inverse)); }
+
+    /** Unit normal of the disc. */
+    Vec3 getAxis() const { return m_toUnitDisc.row(2).transpose().normalized(); }
+
+    /** How often the segment A B passes the hole: 1 along the axis, -1 against it, else 0. */
+    int countCrossings(const Vec3& A_S, const Vec3& B_S) const {
+        const Vec3 a = m_toUnitDisc * A_S, b = m_toUnitDisc * B_S;
+        const bool isAbove = a.z() > 0;
+        if (isAbove == (b.z() > 0)) return 0;
+        const Vec3 crossing = a + a.z() / (a.z() - b.z()) * (b - a);
+        if (!(crossing.head<2>().squaredNorm() < 1)) return 0;
+        return isAbove ? -1 : 1;
+    }
+
+    /** Where the straight line through A and B meets the plane of the disc; not finite if it runs along that. */
+    Vec3 calcPlaneCrossing(const Vec3& A_S, const Vec3& B_S) const {
+        const Vec3 axis = getAxis(), step = B_S - A_S;
+        return A_S - axis.dot(A_S) / axis.dot(step) * step;
+    }
+
+private:
+    explicit Hole(const Mat3& toUnitDisc) : m_toUnitDisc(toUnitDisc) {}
+
+    Mat3 m_toUnitDisc;  ///< to coordinates in which the disc is rho < 1 in the plane z = 0
+};
+
+}  // namespace tautline
