@@ -15,10 +15,6 @@ namespace {
 /** Activation at the start, where the activation dynamics of a file's muscles begin by default. */
 constexpr double kDefaultActivation = 0.05;
 
-std::string locate(const ModelDescription& description, int line) {
-    return description.fileName + ":" + std::to_string(line) + ": ";
-}
-
 /** A pose is sampled in a system of its own, since muscles must be added before the topology is realized. */
 struct BindingSystem {
     explicit BindingSystem(const ModelDescription& description)
@@ -58,8 +54,9 @@ Cable makeCable(CableSubsystem& cables, const ModelDescription& description, con
     const PathPoint &first = path.points.front(), &last = path.points.back();
     for (const PathPoint* end : {&first, &last})
         if (std::holds_alternative<ConditionalLocation>(end->kind))
-            throw ModelError(locate(description, end->line) + owner + ": point '" + end->name +
-                             "' is an end of the path and conditional, which a simulated path cannot do");
+            throw ModelError(description.fileName, end->line,
+                             owner + ": point '" + end->name +
+                                 "' is an end of the path and conditional, which a simulated path cannot do");
     const auto getStation = [](const PathPoint& end) {
         return std::holds_alternative<FixedLocation>(end.kind) ? toSimTK(end.location) : SimTK::Vec3(0);
     };
@@ -142,7 +139,7 @@ void ModelSystem::addMuscle(const ModelDescription& description, const Muscle& m
     try {
         slot.muscle = HillMuscle(m_forces, slot.cable, toHillMuscleParameters(muscle));
     } catch (const InvalidInput& error) {
-        throw ModelError(locate(description, muscle.line) + "muscle '" + muscle.name + "': " + error.what());
+        throw ModelError(description.fileName, muscle.line, "muscle '" + muscle.name + "': " + error.what());
     }
     if (!muscle.appliesForce) slot.muscle.setDisabledByDefault(true);
     m_muscles.push_back(std::move(slot));

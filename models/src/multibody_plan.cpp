@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastAxisAngle = 1e-5;
 
 [[noreturn]] void fail(const ModelDescription& model, int line, const std::string& what) {
-    throw ModelError(model.fileName + ":" + std::to_string(line) + ": " + what);
+    throw ModelError(model.fileName, line, what);
 }
 
 /** Joints without motion need no proper axes: they become welds. */

@@ -6,8 +6,8 @@
 
 #include "read_bodies.h"
 #include "read_constraints.h"
+#include "read_forces.h"
 #include "read_joints.h"
-#include "read_muscles.h"
 #include "read_wrap_objects.h"
 
 namespace tautline::models {

@@ -4,7 +4,7 @@
 
 namespace tautline::models {
 
-/** Reads the members of ForceSet: muscles with their paths. */
-void readForces(Element& model, const FrameTable& frames);
+/** Reads a muscle with its path. */
+void readMuscle(Element& element, const FrameTable& frames);
 
 }  // namespace tautline::models

@@ -22,7 +22,7 @@ int XmlSource::findLine(pugi::xml_node node) const {
 }
 
 void XmlSource::fail(int line, const std::string& what) const {
-    throw ModelError(m_fileName + ":" + std::to_string(line) + ": " + what);
+    throw ModelError(m_fileName, line, what);
 }
 
 int XmlSource::findLineOfOffset(std::ptrdiff_t offset) const {

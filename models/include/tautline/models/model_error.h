@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <stdexcept>
+#include <string>
 
 namespace tautline::models {
 
@@ -8,6 +9,9 @@ namespace tautline::models {
 class ModelError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
+    /** @param line   counted from 1, of the element that `what` is about */
+    ModelError(const std::string& fileName, int line, const std::string& what)
+        : std::runtime_error(fileName + ":" + std::to_string(line) + ": " + what) {}
 };
 
 }  // namespace tautline::models

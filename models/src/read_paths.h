@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "frame_table.h"
+
+namespace tautline::models {
+
+/** Reads the path inside an element that owns one, such as a muscle. */
+MusclePath readOwnedPath(Element& owner, const FrameTable& frames);
+
+}  // namespace tautline::models
