@@ -176,9 +176,9 @@ private:
         m_scene.B_S = makePlaceOutside();
     }
     Vec3 makePlaceOutside() {
-        Vec3 p, N;
+        Vec3 p;
         do p = m_radius * m_random.logUniform(0.5, 5) * m_random.unitVector();
-        while (m_surface->calcHeight(p, N) < 0.03 * m_surface->getSize());
+        while (m_surface->calcHeight(p) < 0.03 * m_surface->getSize());
         return p;
     }
     /** The taut strings that turn by less than a full turn; no string twice. */
@@ -216,13 +216,13 @@ private:
     }
     /** Half way along what touches, or the surface point nearest to the nodes. */
     Vec3 findMiddle(const std::vector<Vec3>& nodes) const {
-        Vec3 N, lowest = nodes.front();
+        Vec3 lowest = nodes.front();
         double least = kInfinity;
         std::vector<Vec3> touching;
         for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
             for (int k = 0; k < 20; ++k) {
                 const Vec3 p = nodes[i] + 0.05 * k * (nodes[i + 1] - nodes[i]);
-                const double height = m_surface->calcHeight(p, N);
+                const double height = m_surface->calcHeight(p);
                 if (height < least) least = height, lowest = p;
                 if (height < 1e-3 * m_surface->getSize()) touching.push_back(p);
             }
@@ -292,31 +292,26 @@ private:
         } while ((m_scene.A_S - m_scene.B_S).norm() < 0.3 * m_radius);
         if (m_random.pick(4) == 0) return makeNearHole(hole);
         const int passages = m_random.pick(5) == 0 ? 0 : (m_random.flip() ? 1 : -1);
+        finishThreaded(ThreadHole{passages}, passages, hole, "passages", Vec3(passages, 0, 0));
+    }
+    /** A point in the hole, between ends on both sides of it. */
+    void makeNearHole(double hole) {
+        if (m_scene.A_S.z() * m_scene.B_S.z() > 0) m_scene.B_S.z() *= -1;
+        const int passages = m_scene.B_S.z() > 0 ? 1 : -1;
+        const Vec3 point = m_random.vector(0.3 * hole);
+        finishThreaded(PassNear{point}, passages, hole, "near the middle of the hole", point);
+    }
+    void finishThreaded(const StartHint& hint, int passages, double hole, const std::string& what, const Vec3& given) {
         const TautString string = findTautString(*m_surface, makeCourseThrough(passages), countSprings(hole));
         const auto goesSo = [surface = m_surface, passages](const std::vector<Vec3>& nodes) {
             int count = 0;
             for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
-                count += surface->countHoleCrossings(nodes[i], nodes[i + 1]);
+                count += surface->getHole()->countCrossings(nodes[i], nodes[i + 1]);
             return count == passages;
         };
         m_scene.isKnown = string.kind != TautString::Kind::Unknown && goesSo(string.nodes);
         m_scene.isAsAsked = goesSo;
-        finish(ThreadHole{passages}, toLength(string), "passages", Vec3(passages, 0, 0));
-    }
-    /** A point in the hole: through it in the direction that takes less string. */
-    void makeNearHole(double hole) {
-        const TautString up = findTautString(*m_surface, makeCourseThrough(1), countSprings(hole));
-        const TautString down = findTautString(*m_surface, makeCourseThrough(-1), countSprings(hole));
-        const TautString& string = up.length < down.length ? up : down;
-        const Vec3 point = m_random.vector(0.3 * hole);
-        m_scene.isKnown = string.kind != TautString::Kind::Unknown;
-        m_scene.isAsAsked = [surface = m_surface](const std::vector<Vec3>& nodes) {
-            int count = 0;
-            for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
-                count += surface->countHoleCrossings(nodes[i], nodes[i + 1]);
-            return std::abs(count) == 1;
-        };
-        finish(PassNear{point}, toLength(string), "near the middle of the hole", point);
+        finish(hint, toLength(string), what, given);
     }
     int countSprings(double hole) const {
         return static_cast<int>(std::clamp(3 * m_radius / (0.2 * hole), 120.0, 400.0));

@@ -18,10 +18,7 @@ struct Body {
     const Surface* surface;
     Pose X_GS;
 
-    double calcHeight(const Vec3& p_G) const {
-        Vec3 N;
-        return surface->calcHeight(X_GS.shiftBack(p_G), N);
-    }
+    double calcHeight(const Vec3& p_G) const { return surface->calcHeight(X_GS.shiftBack(p_G)); }
     /** The nearest surface point, nearly: the foot of the steepest descent, moved along the surface by what is left of
     the way to p that is not normal there. */
     Vec3 findNearestPoint(const Vec3& p_G) const {
@@ -29,7 +26,7 @@ struct Body {
         const Vec3 p = X_GS.shiftBack(p_G);
         Vec3 x = surface->findSurfacePoint(p).p, N;
         for (int i = 0; i < kCorrections; ++i) {
-            surface->calcHeight(x, N);
+            surface->calcHeightAndNormal(x, N);
             x = surface->findSurfacePoint(p - N.dot(p - x) * N).p;
         }
         return X_GS * x;
@@ -229,10 +226,9 @@ private:
 inline double findLowestSample(const Surface& surface, const Vec3& A, const Vec3& B, Vec3& lowest) {
     constexpr int kSamples = 400;
     double least = kInfinity;
-    Vec3 N;
     for (int i = 0; i <= kSamples; ++i) {
         const Vec3 p = A + i * (B - A) / kSamples;
-        const double height = surface.calcHeight(p, N);
+        const double height = surface.calcHeight(p);
         if (height < least) least = height, lowest = p;
     }
     return least;
