@@ -158,6 +158,11 @@ void Element::skip(const std::vector<std::string>& tags, const std::string& reas
     }
 }
 
+void Element::skipUnread(const std::vector<std::string>& tags, const std::string& reason) {
+    for (const std::string& tag : tags)
+        if (m_known.count(tag) == 0) skip({tag}, reason);
+}
+
 void Element::skipThis(const std::string& owner, const std::string& reason) const {
     auto& skipped = m_reading->model.skipped;
     const std::string tag = getTag();

@@ -65,6 +65,8 @@ public:
 
     /** Lists the children of these tags as skipped. */
     void skip(const std::vector<std::string>& tags, const std::string& reason);
+    /** The same for those of these tags that nobody has asked for. */
+    void skipUnread(const std::vector<std::string>& tags, const std::string& reason);
     /** Lists this element as skipped. */
     void skipThis(const std::string& owner, const std::string& reason) const;
     void refuseUnknown() const;

@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <set>
 
-#include "tautline/error.h"
 #include "tautline/models/path_points.h"
 #include "tautline/simbody/conversions.h"
 #include "wrap_surface.h"
 
 namespace tautline::models {
 namespace {
-
-/** Activation at the start, where the activation dynamics of a file's muscles begin by default. */
-constexpr double kDefaultActivation = 0.05;
 
 /** A pose is sampled in a system of its own, since muscles must be added before the topology is realized. */
 struct BindingSystem {
@@ -80,32 +76,13 @@ void addPoint(Cable& cable, const PathPoint& point, const BuiltModel& model) {
 
 }  // namespace
 
-HillMuscleParameters toHillMuscleParameters(const Muscle& muscle) {
-    HillMuscleParameters parameters;
-    const auto take = [](double& to, const std::optional<double>& from) { to = from.value_or(to); };
-    parameters.maxIsometricForce = muscle.maxIsometricForce;
-    parameters.optimalFiberLength = muscle.optimalFiberLength;
-    parameters.tendonSlackLength = muscle.tendonSlackLength;
-    parameters.pennationAtOptimal = muscle.pennationAngleAtOptimal;
-    parameters.maxContractionVelocity = muscle.maxContractionVelocity;
-    take(parameters.activationTime, muscle.activationTimeConstant);
-    take(parameters.deactivationTime, muscle.deactivationTimeConstant);
-    take(parameters.activeWidth, muscle.activeShape);
-    take(parameters.passiveStrain, muscle.fiberStrainAtMaxForce);
-    take(parameters.passiveShape, muscle.passiveShape);
-    take(parameters.concentricShape, muscle.velocityShape);
-    take(parameters.eccentricForce, muscle.maxLengtheningForce);
-    parameters.defaultActivation = kDefaultActivation;
-    return parameters;
-}
-
 ModelSystem::ModelSystem(const ModelDescription& description)
     : m_matter(m_system), m_forces(m_system), m_cables(m_system), m_model(buildMultibody(description, m_matter)) {
     addGravity(description, m_forces, m_matter);
     const BindingSystem binding(description);
     for (const ModelConstraint& constraint : description.constraints)
         if (const auto* coupler = std::get_if<CoordinateCoupler>(&constraint)) m_couplers.push_back(*coupler);
-    for (const Muscle& muscle : description.muscles) {
+    for (const models::Muscle& muscle : description.muscles) {
         const std::vector<BoundWrap> wraps = bindWraps(description, muscle.path, binding.model, binding.state);
         addMuscle(description, muscle, wraps);
     }
@@ -130,17 +107,13 @@ Cable ModelSystem::addCable(const ModelDescription& description, const std::stri
     return cable;
 }
 
-void ModelSystem::addMuscle(const ModelDescription& description, const Muscle& muscle,
+void ModelSystem::addMuscle(const ModelDescription& description, const models::Muscle& muscle,
                             const std::vector<BoundWrap>& wraps) {
     MuscleSlot slot;
     slot.name = muscle.name, slot.path = "/forceset/" + muscle.name, slot.wraps = wraps;
     slot.cable = addCable(description, "muscle", muscle.name, muscle.path, wraps);
     slot.start = makePathStart(muscle.path, wraps, slot.cable);
-    try {
-        slot.muscle = HillMuscle(m_forces, slot.cable, toHillMuscleParameters(muscle));
-    } catch (const InvalidInput& error) {
-        throw ModelError(description.fileName, muscle.line, "muscle '" + muscle.name + "': " + error.what());
-    }
+    slot.muscle = Muscle(m_forces, slot.cable, muscle.model);
     if (!muscle.appliesForce) slot.muscle.setDisabledByDefault(true);
     m_muscles.push_back(std::move(slot));
 }
@@ -170,6 +143,13 @@ SimTK::State ModelSystem::makeDefaultState() {
     m_system.realizeModel(state);
     m_model.setDefaultPose(state);
     return state;
+}
+
+std::vector<MuscleEquilibrium> ModelSystem::equilibrateMuscles(SimTK::State& state) const {
+    m_system.realize(state, SimTK::Stage::Position);
+    std::vector<MuscleEquilibrium> found;
+    for (const MuscleSlot& slot : m_muscles) found.push_back(slot.muscle.equilibrate(state));
+    return found;
 }
 
 double ModelSystem::calcMomentArm(const SimTK::State& state, const Cable& cable, const std::string& coordinate) const {

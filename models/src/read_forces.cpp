@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "read_muscle_models.h"
 #include "read_muscles.h"
 #include "read_path_forces.h"
 
@@ -16,11 +17,18 @@ void skipUncontrolled(Element& element, const FrameTable&) {
 }
 
 const std::map<std::string, ForceReader>& getForceReaders() {
-    static const std::map<std::string, ForceReader> kReaders{
-        {"Thelen2003Muscle", readMuscle},    {"Millard2012EquilibriumMuscle", readMuscle},
-        {"PathSpring", readPathSpring},      {"CoordinateActuator", skipUncontrolled},
-        {"PointActuator", skipUncontrolled}, {"TorqueActuator", skipUncontrolled}};
+    static const std::map<std::string, ForceReader> kReaders{{"PathSpring", readPathSpring},
+                                                             {"CoordinateActuator", skipUncontrolled},
+                                                             {"PointActuator", skipUncontrolled},
+                                                             {"TorqueActuator", skipUncontrolled}};
     return kReaders;
+}
+
+/** Null for a force of no known type. */
+ForceReader findForceReader(const std::string& tag) {
+    if (isMuscleType(tag)) return readMuscle;
+    const auto found = getForceReaders().find(tag);
+    return found == getForceReaders().end() ? nullptr : found->second;
 }
 
 }  // namespace
@@ -40,9 +48,9 @@ void readForces(Element& model, const FrameTable& frames) {
     Element set = model.find("ForceSet");
     if (!set) return;
     for (Element force : set.getSetMembers()) {
-        const auto reader = getForceReaders().find(force.getTag());
-        if (reader == getForceReaders().end()) force.fail("unknown force " + force.describe());
-        reader->second(force, frames);
+        const ForceReader read = findForceReader(force.getTag());
+        if (!read) force.fail("unknown force " + force.describe());
+        read(force, frames);
     }
 }
 

@@ -44,12 +44,15 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
     bar.clear();
     writeStorage(result.states, outFolder / "states.sto");
     writeStorage(result.paths, outFolder / "paths.sto");
+    const bool hasMuscles = !names.empty();
+    if (hasMuscles) writeStorage(result.muscles, outFolder / "muscles.sto");
     writeStorage(result.clearances, outFolder / "clearances.sto");
     writeWhole(result.events, outFolder / "events.csv");
     if (!result.starts.empty()) writeWhole(result.starts, outFolder / "start.csv");
     printRunTable(model, result, out);
     out << "results: " << (outFolder / "states.sto").string() << ", " << (outFolder / "paths.sto").string() << ", "
-        << (outFolder / "clearances.sto").string() << ", " << (outFolder / "events.csv").string();
+        << (hasMuscles ? (outFolder / "muscles.sto").string() + ", " : "") << (outFolder / "clearances.sto").string()
+        << ", " << (outFolder / "events.csv").string();
     if (!result.starts.empty()) out << ", " << (outFolder / "start.csv").string();
     out << "\n";
     if (drawsCurves)

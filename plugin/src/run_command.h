@@ -9,8 +9,8 @@
 
 namespace tautline {
 
-/** `tautline run`: simulates a model file and writes states.sto, paths.sto, clearances.sto and events.csv, start.csv
-if the model gives geodesics to start from, and pictures if asked for. */
+/** `tautline run`: simulates a model file and writes states.sto, paths.sto, muscles.sto if there are any,
+clearances.sto and events.csv, start.csv if the model gives geodesics to start from, and pictures if asked for. */
 struct RunCommand {
     std::filesystem::path modelFile, outFolder = "results";
     ExcitationOptions excitations;

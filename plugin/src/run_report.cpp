@@ -2,7 +2,7 @@
 #include "run_report.h"
 
 #include <iomanip>
-#include <set>
+#include <map>
 #include <sstream>
 
 namespace tautline {
@@ -12,6 +12,36 @@ std::string format(double value, int digits, bool isScientific = false) {
     std::ostringstream text;
     text << (isScientific ? std::scientific : std::fixed) << std::setprecision(digits) << value;
     return text.str();
+}
+
+/** How the muscles of each type are computed, and notes, each with the muscles that it is of. */
+void printMuscleTypes(const models::ModelDescription& description, std::ostream& out) {
+    std::map<std::string, int> types;
+    std::map<std::string, std::string> notes;
+    for (const models::Muscle& muscle : description.muscles) {
+        ++types[muscle.type + ": the muscle model of " + muscle.model->getDescription()];
+        for (const std::string& note : muscle.notes) notes[note] += (notes[note].empty() ? "" : ", ") + muscle.name;
+    }
+    for (const auto& [type, count] : types) out << count << " " << type << ", with the file's parameters\n";
+    for (const auto& [note, muscles] : notes) out << "note: " << muscles << ": " << note << "\n";
+}
+
+/** What the muscles' forces rest on where that is far from what was measured. */
+void printMuscleNotes(const models::ModelSystem& model, const SimulationResult& result, std::ostream& out) {
+    constexpr double kLongFiber = 1.6;  // passive curves are measured up to there, and active force ends near it
+    for (std::size_t i = 0; i < model.getMuscles().size(); ++i) {
+        const MuscleSummary& summary = result.muscleSummaries[i];
+        const std::string& name = model.getMuscles()[i].name;
+        if (summary.start.status == EquilibriumStatus::FiberAtLowerBound)
+            out << "note: " << name << ": at the start the path is too short for it, the fiber is at its shortest, "
+                << (summary.start.tendonForce > 0 ? "the tendon pulls less than the fiber could"
+                                                  : "the tendon is slack")
+                << "\n";
+        if (summary.longestFiber > kLongFiber)
+            out << "note: " << name << ": the fiber reaches " << format(summary.longestFiber, 2)
+                << " optimal lengths (at " << format(summary.longestAt, 3) << " s); beyond " << kLongFiber
+                << " its curves are only continued\n";
+    }
 }
 
 }  // namespace
@@ -31,10 +61,7 @@ void printModelNotes(const models::ModelDescription& description, const models::
         }
         out << "\n";
     }
-    std::set<std::string> types;
-    for (const models::Muscle& muscle : description.muscles) types.insert(muscle.type);
-    for (const std::string& type : types)
-        out << type << ": run through Tautline's first Hill-type muscle (rigid tendon), with the file's parameters\n";
+    printMuscleTypes(description, out);
     for (const auto& slot : model.getPaths())
         for (const models::BoundWrap& wrap : slot.wraps)
             if (wrap.numElsewhere > 0)
@@ -69,6 +96,7 @@ void printRunTable(const models::ModelSystem& model, const SimulationResult& res
     }
     out << result.acceptedSteps << " steps, " << format(result.seconds, 3) << " s, of which "
         << format(100 * result.wrappingSeconds / std::max(result.seconds, 1e-9), 1) << " % in wrapping\n";
+    printMuscleNotes(model, result, out);
     for (std::size_t i = 0; i < paths.size(); ++i)
         if (const PathSummary& summary = result.summaries[i]; summary.slips > 0)
             out << "note: " << paths[i].name << ": " << summary.slips << (summary.slips == 1 ? " slip" : " slips")

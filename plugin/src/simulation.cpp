@@ -15,16 +15,42 @@ using models::ModelSystem;
 using SimTK::Stage;
 using SimTK::State;
 
+/** What muscles.sto holds of each muscle, by OpenSim's names. */
+struct MuscleColumn {
+    const char* name;
+    double (*get)(const MuscleDynamics&, const MuscleEnergy&);
+};
+constexpr MuscleColumn kMuscleColumns[] = {
+    {"|activation", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.activation; }},
+    {"|fiber_length", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.lengths.fiberLength; }},
+    {"|fiber_velocity", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.fiberVelocity; }},
+    {"|pennation_angle", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.lengths.calcPennation(); }},
+    {"|tendon_length", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.lengths.tendonLength; }},
+    {"|active_fiber_force", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.activeFiberForce; }},
+    {"|passive_fiber_force", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.passiveFiberForce; }},
+    {"|damping_fiber_force", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.dampingFiberForce; }},
+    {"|tendon_force", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.tendonForce; }},
+    {"|fiber_active_power", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.fiberActivePower; }},
+    {"|fiber_passive_power", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.fiberPassivePower; }},
+    {"|fiber_damping_power", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.fiberDampingPower; }},
+    {"|tendon_power", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.tendonPower; }},
+    {"|muscle_power", [](const MuscleDynamics& d, const MuscleEnergy&) { return d.musclePower; }},
+    {"|fiber_potential_energy", [](const MuscleDynamics&, const MuscleEnergy& e) { return e.fiber; }},
+    {"|tendon_potential_energy", [](const MuscleDynamics&, const MuscleEnergy& e) { return e.tendon; }}};
+
 /** Turns states of a simulation into rows and counts. */
 class Recorder {
 public:
     Recorder(const ModelSystem& model, SimulationResult& result)
         : m_model(model), m_paths(model.getPaths()), m_result(result) {
         m_result.summaries.resize(m_paths.size());
+        m_result.muscleSummaries.resize(model.getMuscles().size());
         m_result.events = "time,path,obstacle,kind\n";
         m_result.states.name = "states", m_result.paths.name = "paths", m_result.clearances.name = "clearances";
+        m_result.muscles.name = "muscles";
         labelStates();
         labelPaths();
+        labelMuscles();
         labelClearances();
     }
 
@@ -32,7 +58,9 @@ public:
         m_model.getSystem().realize(state, Stage::Velocity);
         recordStates(state);
         recordPaths(state);
+        recordMuscles(state);
         recordClearances(state);
+        watchFibers(state);
     }
 
     /** Has the cables count an accepted step, and says why the first is degraded that is. */
@@ -46,6 +74,7 @@ public:
                          " s: " + getName(m_paths[i].cable.calcStatus(state)) + ", " +
                          m_paths[i].cable.explainStatus(state);
         }
+        watchFibers(state);
     }
 
     void recordEvent(std::size_t path, const ContactEvent& event) {
@@ -91,7 +120,23 @@ private:
             m_result.states.labels.push_back(name + "/value");
             m_result.states.labels.push_back(name + "/speed");
         }
-        for (const auto& slot : m_model.getMuscles()) m_result.states.labels.push_back(slot.path + "/activation");
+        for (const auto& slot : m_model.getMuscles()) {
+            if (hasActivation(slot)) m_result.states.labels.push_back(slot.path + "/activation");
+            if (hasFiber(slot)) m_result.states.labels.push_back(slot.path + "/fiber_length");
+        }
+    }
+
+    // Which of them are states.
+    static bool hasActivation(const ModelSystem::MuscleSlot& slot) {
+        return !slot.muscle.getParameters().ignoresActivationDynamics;
+    }
+    static bool hasFiber(const ModelSystem::MuscleSlot& slot) { return !slot.muscle.getModel().hasRigidTendon(); }
+
+    void labelMuscles() {
+        m_result.muscles.labels = {"time"};
+        for (const auto& slot : m_model.getMuscles())
+            for (const MuscleColumn& column : kMuscleColumns)
+                m_result.muscles.labels.push_back(slot.path + column.name);
     }
 
     void labelPaths() {
@@ -125,8 +170,21 @@ private:
             row.push_back(m_model.getModel().getCoordinate(state, name));
             row.push_back(m_model.getModel().getCoordinateSpeed(state, name));
         }
-        for (const auto& slot : m_model.getMuscles()) row.push_back(slot.muscle.getActivation(state));
+        for (const auto& slot : m_model.getMuscles()) {
+            if (hasActivation(slot)) row.push_back(slot.muscle.getActivation(state));
+            if (hasFiber(slot)) row.push_back(slot.muscle.getFiberLength(state));
+        }
         m_result.states.rows.push_back(row);
+    }
+
+    void recordMuscles(const State& state) {
+        std::vector<double> row = {state.getTime()};
+        for (const auto& slot : m_model.getMuscles()) {
+            const MuscleDynamics dynamics = slot.muscle.calcDynamics(state);
+            const MuscleEnergy energy = slot.muscle.calcEnergy(state);
+            for (const MuscleColumn& column : kMuscleColumns) row.push_back(column.get(dynamics, energy));
+        }
+        m_result.muscles.rows.push_back(row);
     }
 
     void recordPaths(const State& state) {
@@ -142,6 +200,14 @@ private:
             row.insert(row.end(), arms.begin(), arms.end());
         }
         m_result.paths.rows.push_back(row);
+    }
+
+    void watchFibers(const State& state) {
+        for (std::size_t i = 0; i < m_result.muscleSummaries.size(); ++i) {
+            MuscleSummary& summary = m_result.muscleSummaries[i];
+            const double length = m_model.getMuscles()[i].muscle.calcLengths(state).normFiberLength;
+            if (length > summary.longestFiber) summary.longestFiber = length, summary.longestAt = state.getTime();
+        }
     }
 
     void recordClearances(const State& state) {
@@ -262,7 +328,9 @@ SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excita
     setExcitations(model, excitations);
     State state = model.makeDefaultState();
     startPaths(model, state, result);
+    const std::vector<MuscleEquilibrium> starts = model.equilibrateMuscles(state);
     Recorder recorder(model, result);
+    for (std::size_t i = 0; i < starts.size(); ++i) result.muscleSummaries[i].start = starts[i];
     const ListenerScope listening(paths, recorder);
     const auto start = std::chrono::steady_clock::now();
     integrate(model, state, options, recorder, reportProgress, result.finalState);

@@ -20,20 +20,30 @@ struct PathSummary {
     std::string firstDegradation;  ///< status, reason and time of the first degraded step
 };
 
+/** What a muscle did over a simulation. */
+struct MuscleSummary {
+    MuscleEquilibrium start;  ///< from which it began
+    double longestFiber = 0;  ///< in optimal fiber lengths, at the accepted steps
+    double longestAt = 0;     ///< when [s]
+};
+
 struct SimulationResult {
     StorageTable states, paths;
+    StorageTable muscles;     ///< fibers, tendons, forces, powers; without columns if the model has no muscles
     StorageTable clearances;  ///< where each obstacle stands to the straight segment that passes it
     std::string events;       ///< events.csv: time,path,obstacle,kind
     std::string starts;       ///< start.csv: path,iteration,obstacle,error; empty if the model gives no starts
-    std::vector<PathSummary> summaries;  ///< in the order of ModelSystem::getPaths()
+    std::vector<PathSummary> summaries;          ///< in the order of ModelSystem::getPaths()
+    std::vector<MuscleSummary> muscleSummaries;  ///< in the order of ModelSystem::getMuscles()
     SimTK::State finalState;
     int acceptedSteps = 0;
     double seconds = 0;          ///< of wall time in the integration
     double wrappingSeconds = 0;  ///< of it in the path solver
 };
 
-/** Simulates a model forward under gravity and its muscles' excitations from its default pose. Paths for which
-the model gives geodesics to start from begin with what these lead to, others with what the solver finds.
+/** Simulates a model forward under gravity and its muscles' excitations from its default pose, with fibers and tendons
+in equilibrium at the muscles' default activations. Paths for which the model gives geodesics to start from begin with
+what these lead to, others with what the solver finds.
 @param reportProgress   called with the share done, 0 to 1
 @throws InvalidInput as SimulationOptions::validate(), std::runtime_error if a start that the model gives leads to no
 path

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A forearm on a pin, held up by a muscle that wraps over a cylinder at the elbow.
 #include <Simbody.h>
+#include <tautline/muscles/millard_2012.h>
 #include <tautline/simbody/cable.h>
-#include <tautline/simbody/hill_muscle.h>
+#include <tautline/simbody/muscle.h>
 #include <tautline/surfaces/cylinder.h>
 using namespace SimTK;
 
@@ -17,12 +18,14 @@ int main() {
 
     tautline::Cable path(cables, matter.Ground(), Vec3(-0.02, 0.3, 0), forearm, Vec3(-0.03, 0.1, 0));
     path.addObstacle(matter.Ground(), Vec3(0), std::make_shared<tautline::Cylinder>(0.03), Vec3(-0.03, 0, 0));
-    tautline::HillMuscleParameters parameters;
+    tautline::Millard2012Parameters parameters;
     parameters.tendonSlackLength = 0.12;
-    parameters.defaultExcitation = 0.2;
-    tautline::HillMuscle muscle(forces, path, parameters);
+    parameters.defaultExcitation = parameters.defaultActivation = 0.2;
+    tautline::Muscle muscle(forces, path, std::make_shared<tautline::Millard2012>(parameters));
 
     State state = system.realizeTopology();
+    system.realize(state, Stage::Position);
+    muscle.equilibrate(state);
     RungeKuttaMersonIntegrator integrator(system);
     TimeStepper stepper(system, integrator);
     stepper.initialize(state);

@@ -9,6 +9,7 @@
 #include "model_test_support.h"
 #include "support/shared_data.h"
 #include "tautline/models/path_points.h"
+#include "tautline/muscles/thelen_2003.h"
 
 namespace tautline::models::testing {
 namespace {
@@ -78,13 +79,16 @@ TEST(DataArm26, MusclesAgreeBetweenTheLayouts) {
         const Muscle &a = present.muscles[i], &b = old.muscles[i];
         SCOPED_TRACE(a.name);
         EXPECT_EQ(a.name, b.name);
-        EXPECT_EQ(a.maxIsometricForce, b.maxIsometricForce);
-        EXPECT_EQ(a.optimalFiberLength, b.optimalFiberLength);
-        EXPECT_EQ(a.tendonSlackLength, b.tendonSlackLength);
-        EXPECT_EQ(a.pennationAngleAtOptimal, b.pennationAngleAtOptimal);
-        EXPECT_EQ(a.deactivationTimeConstant, 0.04);
-        EXPECT_EQ(a.tendonStrainAtMaxForce, b.tendonStrainAtMaxForce);
-        EXPECT_EQ(a.maxLengtheningForce, 1.8);
+        const auto& p = dynamic_cast<const Thelen2003&>(*a.model).getParameters();
+        const auto& q = dynamic_cast<const Thelen2003&>(*b.model).getParameters();
+        EXPECT_EQ(p.maxIsometricForce, q.maxIsometricForce);
+        EXPECT_EQ(p.optimalFiberLength, q.optimalFiberLength);
+        EXPECT_EQ(p.tendonSlackLength, q.tendonSlackLength);
+        EXPECT_EQ(p.pennationAtOptimal, q.pennationAtOptimal);
+        EXPECT_EQ(p.deactivationTime, 0.04);
+        EXPECT_EQ(p.tendonStrain, 0.033);
+        EXPECT_EQ(q.tendonStrain, 0.033);
+        EXPECT_EQ(p.lengtheningForce, 1.8);
         EXPECT_TRUE(a.appliesForce && b.appliesForce);
         ASSERT_EQ(a.path.points.size(), b.path.points.size());
         ASSERT_EQ(a.path.wraps.size(), b.path.wraps.size());

@@ -2,14 +2,19 @@
 #include <map>
 
 #include "adapter_scenes.h"
+#include "tautline/muscles/thelen_2003.h"
 #include "tautline/simbody/cable_constraint.h"
 #include "tautline/simbody/cable_forces.h"
-#include "tautline/simbody/hill_muscle.h"
+#include "tautline/simbody/muscle.h"
 
 namespace tautline::testing {
 namespace {
 
 using Query = std::function<void(const State&)>;
+
+std::shared_ptr<const MuscleModel> makeMuscleModel() {
+    return std::make_shared<Thelen2003>(Thelen2003Parameters());
+}
 
 /** Every query of a cable, with the name that its stage error must give. */
 std::map<std::string, Query> makePositionQueries(const MechanismScene& scene) {
@@ -102,7 +107,7 @@ TEST(CableStages, BeforeTopologyEveryCallThrowsTheStageError) {
     const Cable cable = scene.cable;
     const ElasticStringForce string(scene.forces, cable, 1, 1, 0);
     const PrescribedTensionForce tension(scene.forces, cable, 1);
-    const HillMuscle muscle(scene.forces, cable, HillMuscleParameters());
+    const Muscle muscle(scene.forces, cable, makeMuscleModel());
     const CableConstraint constraint(scene.matter, cable, 4);
     PathSolution path;
     path.contacts.resize(cable.getNumElements());
@@ -125,6 +130,10 @@ TEST(CableStages, BeforeTopologyEveryCallThrowsTheStageError) {
         {"getExcitation", [&](State& s) { muscle.getExcitation(s); }},
         {"setActivation", [&](State& s) { muscle.setActivation(s, 0.2); }},
         {"getActivation", [&](State& s) { muscle.getActivation(s); }},
+        {"setFiberLength", [&](State& s) { muscle.setFiberLength(s, 0.1); }},
+        {"equilibrate", [&](State& s) { muscle.equilibrate(s); }},
+        {"getFiberLength", [&](State& s) { muscle.getFiberLength(s); }},
+        {"calcDynamics", [&](State& s) { muscle.calcDynamics(s); }},
         {"constraint.getTension", [&](State& s) { constraint.getTension(s); }}};
     const auto expectStageErrors = [&] {
         for (const auto& [name, call] : calls) {
@@ -142,7 +151,7 @@ TEST(CableStages, ForcesAskedTooEarlyThrowTheStageErrorToo) {
     const ElasticStringForce string(scene.forces, scene.cable, 1, 1, 0);
     const CableSpringForce spring(scene.forces, scene.cable, 1, 1, 1);
     const PrescribedTensionForce tension(scene.forces, scene.cable, 1);
-    const HillMuscle muscle(scene.forces, scene.cable, HillMuscleParameters());
+    const Muscle muscle(scene.forces, scene.cable, makeMuscleModel());
     const CableConstraint constraint(scene.matter, scene.cable, 4);
     scene.system.realizeTopology();
     State state = scene.makeState(0);
@@ -157,12 +166,16 @@ TEST(CableStages, ForcesAskedTooEarlyThrowTheStageErrorToo) {
     };
     expectStage(Stage::Position,
                 {[&](const State& s) { string.getStretch(s); }, [&](const State& s) { muscle.getFiberLength(s); },
-                 [&](const State& s) { muscle.getPennation(s); }});
-    expectStage(Stage::Velocity,
-                {[&](const State& s) { string.getTension(s); }, [&](const State& s) { spring.getTension(s); },
-                 [&](const State& s) { tension.getTension(s); }, [&](const State& s) { muscle.getTension(s); },
-                 [&](const State& s) { string.calcPower(s); }, [&](const State& s) { string.getPowerDissipation(s); },
-                 [&](const State& s) { muscle.getFiberVelocity(s); }});
+                 [&](const State& s) { muscle.getPennation(s); }, [&](const State& s) { muscle.getTendonLength(s); },
+                 [&](const State& s) { muscle.calcEnergy(s); }});
+    expectStage(
+        Stage::Velocity,
+        {[&](const State& s) { string.getTension(s); }, [&](const State& s) { spring.getTension(s); },
+         [&](const State& s) { tension.getTension(s); }, [&](const State& s) { muscle.getTension(s); },
+         [&](const State& s) { string.calcPower(s); }, [&](const State& s) { string.getPowerDissipation(s); },
+         [&](const State& s) { muscle.getFiberVelocity(s); }, [&](const State& s) { muscle.getActiveFiberForce(s); },
+         [&](const State& s) { muscle.getPassiveFiberForce(s); }, [&](const State& s) { muscle.getTendonForce(s); },
+         [&](const State& s) { muscle.getTendonPower(s); }, [&](const State& s) { muscle.getMusclePower(s); }});
     expectStage(Stage::Acceleration, {[&](const State& s) { constraint.getTension(s); }});
 }
 
@@ -181,7 +194,7 @@ TEST(CableStages, EveryObstacleHasItsWitnessAtPosition) {
 TEST(CableStages, SettersInvalidateTheirStage) {
     MechanismScene scene;
     PrescribedTensionForce tension(scene.forces, scene.cable, 1);
-    HillMuscle muscle(scene.forces, scene.cable, HillMuscleParameters());
+    Muscle muscle(scene.forces, scene.cable, makeMuscleModel());
     scene.system.realizeTopology();
     State state = scene.makeState(0);
     const auto realizeAndSet = [&](const std::function<void(State&)>& set) {
@@ -197,6 +210,8 @@ TEST(CableStages, SettersInvalidateTheirStage) {
     EXPECT_EQ(realizeAndSet([&](State& s) { tension.setTension(s, 2); }), Stage::Velocity);
     EXPECT_EQ(realizeAndSet([&](State& s) { muscle.setExcitation(s, 0.2); }), Stage::Velocity);
     EXPECT_EQ(realizeAndSet([&](State& s) { muscle.setActivation(s, 0.2); }), Stage::Velocity);
+    EXPECT_EQ(realizeAndSet([&](State& s) { muscle.setFiberLength(s, 0.1); }), Stage::Velocity);
+    EXPECT_EQ(realizeAndSet([&](State& s) { muscle.equilibrate(s); }), Stage::Velocity);
 }
 
 TEST(CableStages, BuildingInvalidatesTheTopology) {

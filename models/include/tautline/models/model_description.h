@@ -7,12 +7,14 @@ are already resolved: whatever stood in one is given in its base body. `line` is
 file. */
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "tautline/models/scalar_function.h"
+#include "tautline/muscles/muscle_model.h"
 #include "tautline/types.h"
 
 namespace tautline::models {
@@ -195,23 +197,10 @@ struct Muscle {
     /** The element's type in the file, for example Thelen2003Muscle. */
     std::string type;
     bool appliesForce = true;
-    double maxIsometricForce = 0.0;
-    double optimalFiberLength = 0.0;
-    double tendonSlackLength = 0.0;
-    double pennationAngleAtOptimal = 0.0;
-    /** In optimal fiber lengths per second. */
-    double maxContractionVelocity = 10.0;
-    bool ignoresTendonCompliance = false;
-    bool ignoresActivationDynamics = false;
-    /** Absent where the file gives none: the muscle model knows its own. */
-    std::optional<double> activationTimeConstant;
-    std::optional<double> deactivationTimeConstant;
-    std::optional<double> tendonStrainAtMaxForce;  ///< FmaxTendonStrain
-    std::optional<double> fiberStrainAtMaxForce;   ///< FmaxMuscleStrain
-    std::optional<double> activeShape;             ///< KshapeActive
-    std::optional<double> passiveShape;            ///< KshapePassive
-    std::optional<double> velocityShape;           ///< Af
-    std::optional<double> maxLengtheningForce;     ///< Flen
+    /** With the file's parameters. */
+    std::shared_ptr<const MuscleModel> model;
+    /** What the user should know of how the file was understood, each without the muscle's name. */
+    std::vector<std::string> notes;
     MusclePath path;
     int line = 0;
 };

@@ -10,23 +10,24 @@
 #include "tautline/simbody/cable.h"
 #include "tautline/simbody/cable_forces.h"
 #include "tautline/simbody/cable_subsystem.h"
-#include "tautline/simbody/hill_muscle.h"
+#include "tautline/simbody/muscle.h"
 
 namespace tautline::models {
 
 /** A model as a Simbody system that can be simulated: bodies and joints, gravity, and for each muscle or path spring a
-cable over its wrap objects with a Hill-type muscle or an elastic string that pulls at it.
+cable over its wrap objects with a muscle of the file's model or an elastic string that pulls at it.
 
 @throws ModelError as buildMultibody() does, and for a path whose first or last point is conditional, naming the point
 and its line. */
 class ModelSystem {
 public:
+    using Muscle = tautline::Muscle;  // not the description of one
     struct MuscleSlot {
         std::string name;
         /** "/forceset/<name>": how result files name it. */
         std::string path;
         Cable cable;
-        HillMuscle muscle;
+        Muscle muscle;
         std::vector<BoundWrap> wraps;
         PathStart start;
     };
@@ -66,6 +67,9 @@ public:
     /** Realizes the topology and returns a state in the model's default pose. Call it once everything has been added to
     the system. */
     SimTK::State makeDefaultState();
+    /** Sets the fibers of all muscles to where they and their tendons pull alike at rest, in the State's pose and at
+    its activations. @return what was found, muscle by muscle. Realizes the State to Position. */
+    std::vector<MuscleEquilibrium> equilibrateMuscles(SimTK::State& state) const;
 
     /** Moment arm -dl/dq of a muscle about a coordinate [m], coupled ones moving along. Needs Stage::Position. */
     double calcMomentArm(const SimTK::State& state, const MuscleSlot& muscle, const std::string& coordinate) const {
@@ -80,7 +84,8 @@ private:
     Cable addCable(const ModelDescription& description, const std::string& kind, const std::string& name,
                    const MusclePath& path, const std::vector<BoundWrap>& wraps);
     void addSpring(const ModelDescription& description, const PathSpring& spring, const std::vector<BoundWrap>& wraps);
-    void addMuscle(const ModelDescription& description, const Muscle& muscle, const std::vector<BoundWrap>& wraps);
+    void addMuscle(const ModelDescription& description, const models::Muscle& muscle,
+                   const std::vector<BoundWrap>& wraps);
 
     SimTK::MultibodySystem m_system;
     SimTK::SimbodyMatterSubsystem m_matter;
@@ -91,8 +96,5 @@ private:
     std::vector<MuscleSlot> m_muscles;
     std::vector<SpringSlot> m_springs;
 };
-
-/** A muscle's parameters in the terms of HillMuscle; what the file leaves out stays at its default. */
-HillMuscleParameters toHillMuscleParameters(const Muscle& muscle);
 
 }  // namespace tautline::models
