@@ -67,7 +67,7 @@ void report(Asking asking, int scenes, unsigned seed, int examples) {
         for (const std::string& name : {std::string(getName(asking)), getName(asking) + (", " + scene.kind)}) {
             Tally& tally = tallies[name];
             ++tally.counts[static_cast<int>(outcome)];
-            tally.alarms += outcome == Outcome::Found && !path.followsHints;
+            tally.alarms += outcome == Outcome::Found && !path.followsHints();
             tally.times.push_back(elapsed.count());
             tally.shots.push_back(path.shots);
         }
@@ -76,7 +76,8 @@ void report(Asking asking, int scenes, unsigned seed, int examples) {
         if (!isPoor || ++shown[key] > examples) continue;
         std::cout << "  seed " << sceneSeed << ", " << getName(outcome) << ": " << scene.description << "; got "
                   << std::setprecision(12) << path.length << std::setprecision(6) << ", "
-                  << tautline::getName(path.status) << (path.followsHints ? "" : ", not where the hints lead") << "\n";
+                  << tautline::getName(path.status) << (path.followsHints() ? "" : ", not where the hints lead")
+                  << "\n";
     }
     for (const auto& [name, tally] : tallies) print(name, tally);
 }

@@ -177,6 +177,7 @@ struct Column {
 constexpr Column kColumns[] = {
     {"solved", 8, Verdict::Solved},
     {"other", 8, Verdict::OtherMinimum},
+    {"groove", 8, Verdict::NoSmoothString},
     {"wrong", 8, Verdict::Wrong},
     {"threw", 8, Verdict::Threw},
     {"not converged", 15, Verdict::NotConverged},

@@ -10,7 +10,7 @@ and within a fixed count of shots, and what is no solution is explained. */
 #include <map>
 #include <utility>
 
-#include "paths/obstacle_walk.h"
+#include "paths/posed_problem.h"
 #include "support/random.h"
 #include "support/random_scene.h"
 #include "tautline/paths/path_explanation.h"
@@ -39,7 +39,7 @@ solver's own search for low places. */
 double calcLowestHeight(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     constexpr int kSamples = 300;
     double lowest = kInfinity;
-    visitObstaclesOnSegments(problem, pose, path, [&](int e, int in, int out) {
+    PosedProblem{problem, pose}.forEachObstacleOnSegments(path, [&](int e, int in, int out) {
         if (path.contacts[e].isSwitchedOff) return;
         const Surface& surface = *problem.getElement(e).surface;
         for (int segment = in; segment <= out; ++segment)

@@ -2,7 +2,7 @@
 /** The weave against the mean lengths that peers.md gives for it: values computed by others. */
 #include <gtest/gtest.h>
 
-#include "paths/elastic_string.h"
+#include "paths/elastic_band.h"
 #include "support/weave_scene.h"
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/paths/path_solver.h"
@@ -42,12 +42,13 @@ TEST(Weave, TenCylindersHaveTheKnownMeanLength) {
 
 /** Length of a fine elastic string laid along a path and let go. */
 double calcRelaxedLength(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
-    ElasticString string;
-    string.lay(problem, pose, calcPreviousCourse(problem, pose, path).guides);
-    string.relax(problem, 0.25, 1e-6, 6000);
+    const PosedProblem scene{problem, pose};
+    ElasticBand band;
+    band.lay(scene, calcPreviousRoute(scene, path).waypoints);
+    band.relax(problem, {0.25, 1e-6, 6000});
     double length = 0;
-    for (std::size_t k = 0; k + 1 < string.getNodes().size(); ++k)
-        length += (string.getNodes()[k + 1] - string.getNodes()[k]).norm();
+    for (std::size_t k = 0; k + 1 < band.getNodes().size(); ++k)
+        length += (band.getNodes()[k + 1] - band.getNodes()[k]).norm();
     return length;
 }
 

@@ -82,7 +82,7 @@ inline Outcome judge(const AskedScene& scene, const PathSolution& path) {
     const bool isSolved = path.status == PathStatus::Solved;
     const bool isSame = scene.length && std::abs(path.length / *scene.length - 1) < kSameLength;
     if (isSolved && isSame) return Outcome::Found;
-    if (!isSolved || !path.followsHints) return scene.length ? Outcome::Missed : Outcome::Said;
+    if (!isSolved || !path.followsHints()) return scene.length ? Outcome::Missed : Outcome::Said;
     const bool isMinimum = verifyPath(scene.problem, scene.pose, path).isMinimum();
     return isMinimum && scene.isAsAsked(calcNodes(scene, path)) ? Outcome::Another : Outcome::Silent;
 }

@@ -120,7 +120,7 @@ private:
 };
 
 /** How an answer stands to the verified one, from best to worst; Unlisted: there is none to compare it with. */
-enum class Verdict { Unlisted, Solved, OtherMinimum, Wrong, NotConverged, Threw };
+enum class Verdict { Unlisted, Solved, OtherMinimum, NoSmoothString, Wrong, NotConverged, Threw };
 
 inline const char* getName(Verdict verdict) {
     switch (verdict) {
@@ -130,6 +130,8 @@ inline const char* getName(Verdict verdict) {
             return "solved";
         case Verdict::OtherMinimum:
             return "other minimum";
+        case Verdict::NoSmoothString:
+            return "no smooth string";
         case Verdict::Wrong:
             return "wrong";
         case Verdict::NotConverged:
@@ -140,12 +142,21 @@ inline const char* getName(Verdict verdict) {
     return "";
 }
 
+inline bool hasHints(const PathProblem& problem) {
+    for (int e = 0; e < problem.getNumElements(); ++e)
+        if (!std::holds_alternative<std::monostate>(problem.getElement(e).hint)) return true;
+    return false;
+}
+
 /** Judges one answer: length to 1e-9, contact points to 1e-7 of the obstacle's size, flags equal.
 @param withPoints   compare contact points too (static scenes and the first step of moving ones) */
 inline Verdict judge(const Scene& scene, const PathProblem& problem, const PathPose& pose, const PathSolution& path,
                      int step, bool withPoints) {
     if (!scene.hasAnswer()) return Verdict::Unlisted;
     if (path.status == PathStatus::NotConverged) return Verdict::NotConverged;
+    // Without hints a string may come to lie where obstacles overlap, and says so.
+    if (path.status == PathStatus::NotMinimum && path.fault.kind == StringFault::Kind::Groove && !hasHints(problem))
+        return Verdict::NoSmoothString;
     if (path.status != PathStatus::Solved || !verifyPath(problem, pose, path).isMinimum()) return Verdict::Wrong;
     bool isSame = std::abs(path.length / scene.length[step] - 1) < 1e-9;
     for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "paths/geodesic_variations.h"
-#include "paths/obstacle_walk.h"
+#include "paths/posed_problem.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_stability.h"
 #include "tautline/paths/path_verification.h"
@@ -27,7 +27,7 @@ bool holds(const PathStability& stability) {
 int findLowestWitness(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     int worst = -1;
     double lowest = kWitnessRounding;
-    visitObstacles(problem, pose, [&](int e) {
+    PosedProblem{problem, pose}.forEachObstacle([&](int e) {
         const double witness = calcContactWitness(problem, path, e);
         if (witness < lowest) lowest = witness, worst = e;
     });

@@ -19,7 +19,8 @@ std::string quoteName(const PathProblem& problem, int element) {
 }  // namespace
 
 std::string describe(const PathVerification& verification, const PathProblem& problem) {
-    if (verification.isMinimum()) return "a local minimum";
+    if (verification.element < 0)
+        return verification.isMinimum() ? "a local minimum" : "the path error does not vanish";
     const std::string name = quoteName(problem, verification.element);
     switch (verification.condition) {
         case Condition::ReversedTangent:
@@ -36,6 +37,8 @@ std::string describe(const PathVerification& verification, const PathProblem& pr
             return "the arc on " + name + " leaves the domain of its surface";
         case Condition::Unstable:
             return "the path can be shortened sideways at " + name;
+        case Condition::NotStationary:
+            return "the path error does not vanish";
         case Condition::None:
             break;
     }
@@ -150,6 +153,7 @@ std::string describeCause(const PathProblem& problem, const PathPose& pose, cons
 
 std::string explainNotConverged(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     if (!pose.isFinite()) return "a pose is not finite";
+    if (!problem.hasUsableSizes()) return "the square of an obstacle's size is 0 or infinite in double precision";
     std::ostringstream text;
     text << "the path error stays at " << path.pathError;
     if (const StraightSegment* line = findRoundedSegment(path))
@@ -157,6 +161,23 @@ std::string explainNotConverged(const PathProblem& problem, const PathPose& pose
     else
         text << describeCause(problem, pose, path);
     return text.str();
+}
+
+std::string describe(const RouteDeviation& deviation, const PathProblem& problem) {
+    const std::string name = quoteName(problem, deviation.element);
+    switch (deviation.kind) {
+        case RouteDeviation::Kind::Side:
+            return "not on the side of " + name + " that is asked for";
+        case RouteDeviation::Kind::Near:
+            return "not on the side of " + name + " where the point of its hint is";
+        case RouteDeviation::Kind::Winding:
+            return "not with the turns about " + name + " that are asked for";
+        case RouteDeviation::Kind::Threading:
+            return "not through the hole of " + name + " as is asked for";
+        case RouteDeviation::Kind::None:
+            break;
+    }
+    return "as is asked for";
 }
 
 /** Empty if it goes through all holes as it did. */
@@ -169,7 +190,7 @@ std::string explainLeftHole(const PathProblem& problem, const PathSolution& path
 std::string explainSolved(const PathProblem& problem, const PathSolution& path) {
     const std::string minimum = "a local minimum", left = explainLeftHole(problem, path);
     if (!left.empty()) return minimum + ", but " + left;
-    return path.followsHints ? minimum : minimum + ", but not where the hints lead";
+    return path.followsHints() ? minimum : minimum + ", but " + describe(path.deviation, problem);
 }
 
 /** Of a path whose error vanishes: the condition that does not hold. */

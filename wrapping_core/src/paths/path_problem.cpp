@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "paths/hole_passages.h"
 #include "tautline/error.h"
 
 namespace tautline {
@@ -29,6 +28,40 @@ void checkHint(const StartHint& hint, const Surface& surface, const std::string&
     }
 }
 
+/** True where the z axis of S is inside the body as far as one can see both ways, as that of a cylinder. Asked for just
+beside the axis, since the functions of some surfaces have no gradient on it. */
+bool isEndlessAlongZ(const Surface& surface) {
+    constexpr double kFar = 1e3, kBeside = 1e-3;  // in sizes
+    const auto isInside = [&](double z) {
+        return surface.calcHeight(surface.getSize() * Vec3(0.6 * kBeside, 0.8 * kBeside, z)) < 0;
+    };
+    return isInside(kFar) && isInside(-kFar);
+}
+
+constexpr double kOnAxis = 1e-9;  ///< in sizes: a point so near the axis of an endless body lies on no side of it
+
+/** The side on which a hint asks the path to run: that of its direction, or outward at the foot of its point. Along the
+axis of an endless body there are no sides. */
+Vec3 calcSide(const StartHint& hint, const Surface& surface, bool isEndless) {
+    Vec3 side = Vec3::Constant(kNaN);
+    if (const auto* asked = std::get_if<PassOnSide>(&hint)) side = asked->direction_S;
+    const auto* near = std::get_if<PassNear>(&hint);
+    const bool isOnAxis = near && isEndless && !(near->point_S.head<2>().norm() > kOnAxis * surface.getSize());
+    if (near && !isOnAxis) side = surface.calcFrame(surface.findSurfacePoint(near->point_S), Vec3(0.48, 0.64, 0.6)).N;
+    if (isEndless && side.head<2>().norm() > 0) side.z() = 0;
+    return side.normalized();
+}
+
+/** Whether the point of a hint lies in the hole of its surface: over the disc that spans it, and no higher than wide.
+ */
+bool isThroughHole(const StartHint& hint, const Surface& surface) {
+    const auto* near = std::get_if<PassNear>(&hint);
+    const std::optional<Hole> hole = surface.getHole();
+    if (!near || !hole) return false;
+    const Vec3 over = surface.getSize() * hole->getAxis();
+    return hole->countCrossings(near->point_S - over, near->point_S + over) != 0;
+}
+
 StartHint toStartHint(const std::optional<Vec3>& hint_S) {
     return hint_S ? StartHint(PassNear{*hint_S}) : StartHint();
 }
@@ -36,14 +69,23 @@ StartHint toStartHint(const std::optional<Vec3>& hint_S) {
 }  // namespace
 
 int PathProblem::addPoint(std::string name) {
-    m_elements.push_back({std::move(name), nullptr, {}});
+    PathElement point;
+    point.name = std::move(name);
+    m_elements.push_back(std::move(point));
     return getNumElements() - 1;
 }
 
 int PathProblem::addObstacle(std::string name, std::shared_ptr<const Surface> surface, const StartHint& hint) {
     require(surface != nullptr, "path: obstacle '", name, "' has no surface");
     checkHint(hint, *surface, name);
-    m_elements.push_back({std::move(name), std::move(surface), hint});
+    PathElement obstacle;
+    obstacle.name = std::move(name);
+    obstacle.surface = std::move(surface);
+    obstacle.isEndless = isEndlessAlongZ(*obstacle.surface);
+    const double size = obstacle.surface->getSize();
+    m_hasUsableSizes = m_hasUsableSizes && std::isnormal(size * size);
+    m_elements.push_back(std::move(obstacle));
+    setHint(getNumElements() - 1, hint);
     return getNumElements() - 1;
 }
 
@@ -57,6 +99,8 @@ void PathProblem::setHint(int element, const StartHint& hint) {
     require(!obstacle.isPoint(), "path: element '", obstacle.name, "' is a point and takes no hint");
     checkHint(hint, *obstacle.surface, obstacle.name);
     obstacle.hint = hint;
+    obstacle.side_S = calcSide(hint, *obstacle.surface, obstacle.isEndless);
+    obstacle.isAskedThroughHole = isThroughHole(hint, *obstacle.surface);
 }
 
 void PathProblem::setHint(int element, std::optional<Vec3> hint_S) {

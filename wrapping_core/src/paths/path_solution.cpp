@@ -19,4 +19,22 @@ const char* getName(PathStatus status) {
     return "unknown";
 }
 
+const char* getName(StartStrategy strategy) {
+    switch (strategy) {
+        case StartStrategy::None:
+            return "none";
+        case StartStrategy::Continued:
+            return "continued";
+        case StartStrategy::AlongPrevious:
+            return "along_previous";
+        case StartStrategy::Inserted:
+            return "inserted";
+        case StartStrategy::Band:
+            return "band";
+        case StartStrategy::Released:
+            return "released";
+    }
+    return "unknown";
+}
+
 }  // namespace tautline

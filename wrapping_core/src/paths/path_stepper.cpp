@@ -27,6 +27,7 @@ double calcNorm(const std::vector<double>& v) {
 bool PathStepper::begin(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     m_problem = &problem, m_pose = &pose;
     path.errorHistory.clear();
+    path.errorHistory.reserve(m_options.maxIterations + 1);
     m_chain.build(problem, pose, path.contacts);
     m_trial.build(problem, pose, path.contacts);
     const bool isFinite = shootChain(problem, pose, m_options.geodesics, m_chain);

@@ -26,6 +26,9 @@ void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S
     clearance.N = surface.calcFrame(clearance.C, e_S).N;
     surface.findLineClearance(A_S, e_S, clearance);
     if (isOutside != (clearance.distance > 0)) clearance.found = false;  // another side of the surface
+    // A segment that is below the surface between its ends is not judged by a place beyond them.
+    const bool isOnSegment = clearance.lineCoordinate >= 0 && clearance.lineCoordinate <= length;
+    if (!isOutside && !isOnSegment) clearance.found = false;
 }
 
 /** A line that has sunk so deep that it has no critical point on the kept side any longer, beyond the centres of

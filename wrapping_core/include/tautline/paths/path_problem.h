@@ -14,7 +14,10 @@ Its frame E is posed in ground by the caller; a point sits at E's origin, a surf
 struct PathElement {
     std::string name;
     std::shared_ptr<const Surface> surface;  ///< null: a point
-    StartHint hint;                          ///< how the path runs about it when it is laid anew
+    StartHint hint;                          ///< how the path is asked to run about it
+    Vec3 side_S = Vec3::Constant(kNaN);      ///< of PassNear and PassOnSide: the side asked for, a unit vector
+    bool isAskedThroughHole = false;         ///< by PassNear: the point lies in the hole of the surface
+    bool isEndless = false;                  ///< the z axis of S never leaves the body: sides are homotopy classes
     bool isPoint() const { return surface == nullptr; }
 };
 
@@ -37,11 +40,15 @@ public:
     /** InvalidInput unless the path begins and ends with a point. */
     void validate() const;
 
+    /** False where the square of an obstacle's size is 0 or infinite in double precision: no path is found there. */
+    bool hasUsableSizes() const { return m_hasUsableSizes; }
+
     int getNumElements() const { return static_cast<int>(m_elements.size()); }
     const PathElement& getElement(int element) const { return m_elements[element]; }
 
 private:
     std::vector<PathElement> m_elements;
+    bool m_hasUsableSizes = true;
 };
 
 /** Where the elements of a path are: pose X_GE of each element's frame in ground, and which take part.

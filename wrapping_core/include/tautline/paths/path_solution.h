@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "tautline/paths/solve_report.h"
 #include "tautline/surfaces/surface.h"
 
 namespace tautline {
@@ -34,6 +35,7 @@ struct HolePassage {
 struct ObstacleContact {
     bool isTouched = false;
     bool isSwitchedOff = false;  ///< an end of its strand is inside it
+    bool yields = false;         ///< it overlaps another obstacle where the string lies: the path passes through it
     GeodesicStart start;         ///< in S; of the arc, or of the last arc while lifted
     Geodesic geodesic;           ///< in S; only while touched
     LineClearance clearance;     ///< in S; of the straight line that passes the surface while lifted
@@ -64,23 +66,38 @@ struct StringFault {
     int other = -1;    ///< the second one of a groove, or the one that is met too early
 };
 
+/** Where a path runs elsewhere than was asked: the first hint that it does not follow. */
+struct RouteDeviation {
+    enum class Kind {
+        None,       ///< it runs as was asked
+        Side,       ///< it passes an obstacle on another side than its hint (PassOnSide) says
+        Near,       ///< it passes an obstacle on another side than the point of its hint (PassNear)
+        Winding,    ///< it turns about an obstacle less or more often than its hint (WindAround) says
+        Threading,  ///< it goes through a ring less or more often than its hint (ThreadHole), or the straight line,
+                    ///< does
+    };
+    Kind kind = Kind::None;
+    int element = -1;  ///< the obstacle concerned
+};
+
 /** A path: always finite and drawable, whatever the status. `contacts` has one entry per element of the
 problem (entries of points are unused) and is what a later solve starts from. */
 struct PathSolution {
     PathStatus status = PathStatus::NotConverged;
-    double length = kNaN;     ///< straight segments and arcs [m]
-    double pathError = kNaN;  ///< max |eps| (thesis Eqn. 4.3), dimensionless
-    int iterations = 0;       ///< Newton iterations of this solve
-    int shots = 0;            ///< geodesics shot in this solve
-    bool followsHints =
-        true;              ///< false: when it was last laid anew, the path came to rest elsewhere than the hints say
-    bool wasCold = false;  ///< the start was found anew (elastic string), not continued
+    double length = kNaN;      ///< straight segments and arcs [m]
+    double pathError = kNaN;   ///< max |eps| (thesis Eqn. 4.3), dimensionless
+    int iterations = 0;        ///< Newton iterations of this solve
+    int shots = 0;             ///< geodesics shot in this solve
+    RouteDeviation deviation;  ///< where a minimum runs elsewhere than the hints ask
+    bool wasCold = false;      ///< the start was found anew, not continued
+    SolveReport report;
     std::vector<ObstacleContact> contacts;
     std::vector<StraightSegment> segments;
     StringFault fault;                 ///< where the elastic string led to no solution: why
     std::vector<double> errorHistory;  ///< max |eps| before each Newton iteration of the last run
 
     bool isEmpty() const { return contacts.empty(); }
+    bool followsHints() const { return deviation.kind == RouteDeviation::Kind::None; }
 };
 
 }  // namespace tautline

@@ -8,6 +8,8 @@
 
 namespace tautline {
 
+struct PosedProblem;
+
 /** Finds shortest paths. Holds the workspace of a solve: one per thread; the answer never depends on what
 it solved before. No allocation once it has solved a path of the same size. */
 class PathSolver {
@@ -39,11 +41,11 @@ public:
 private:
     struct Workspace;
 
-    bool begin(const PathPose& pose, PathSolution& path) const;
+    Workspace& updWorkspace();
+    bool begin(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
     const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
-    bool findPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     bool findKeptPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    void switchOffEnclosing(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
+    static void switchOffEnclosing(const PosedProblem& scene, PathSolution& path);
     void finish(const PathProblem& problem, const PathPose& pose, bool isFound, PathSolution& path) const;
 
     PathSolverOptions m_options;

@@ -9,6 +9,7 @@ namespace tautline {
 struct PathVerification {
     enum class Condition {
         None,             ///< all hold
+        NotStationary,    ///< the path error does not vanish: never found by verifyPath(), which is not asked then
         ReversedTangent,  ///< e . t <= 0 at an end of an arc: a cusp
         NegativeLength,   ///< an arc shorter than kShortestArc
         PullsOutward,     ///< kappa_n > 0 somewhere on an arc: a string would lift there

@@ -9,7 +9,8 @@ namespace tautline {
 /** @name What a user may say about an obstacle where a path is laid for the first time, in its frame S. */
 ///@{
 
-/** The path runs near this point. */
+/** The path runs near this point: on the side of the surface where its foot is, or, if the point lies in the surface's
+hole, through that, either way. */
 struct PassNear {
     Vec3 point_S;
 };

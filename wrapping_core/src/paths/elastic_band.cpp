@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "paths/elastic_string.h"
+#include "paths/elastic_band.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,15 @@ constexpr double kMovePerRoom = 0.3;     ///< farthest move of a node in a sweep
 constexpr int kMaxNodes = 4000, kMaxNodesPerElement = 60;  ///< the larger of both is the limit
 constexpr int kLayingDepth = 6;                 ///< bisections of an edge that would cross a surface: 64 pieces
 constexpr double kLayingDepthTolerance = 0.02;  ///< crossings shallower than this (in sizes) are left to the sweeps
-constexpr std::size_t kNeighbours = 4;          ///< obstacles before and after a portion that its mesh allows for
+constexpr std::size_t kNeighbors = 4;           ///< obstacles before and after a portion that its mesh allows for
 constexpr double kTouching = 0.01;              ///< height in sizes below which a node counts as resting on a surface
 constexpr int kSweepsPerMesh = 20;
 constexpr double kTrusted = 0.25;  ///< part of its height that a node may travel before it is asked for again
 constexpr long kMaxHeightsPerElement = 300000;  ///< heights over surfaces that one laying may ask for: its time
 constexpr long kMaxLayings = 2;                 ///< so many times that is what all layings of a search may ask for
 constexpr double kMaxRelaxation = 1.9;
+constexpr double kDisturbance = 1e-3;  ///< of the room of a node: well below its spacing, well above where it rests
+constexpr double kNodesPerTurn = 20;   ///< at the default fineness
 
 /** Where a line along e that dips deepest below a surface at D is bent to: the foot of D, straight across from it. If
 it is not across, D lies on an axis or a centre, and the foot may lie in a plane of symmetry in which the string would
@@ -35,7 +37,9 @@ Vec3 findBend(const Surface& surface, const Vec3& D_S, const Vec3& e_S) {
 
 }  // namespace
 
-void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const StartGuides& guides) {
+void ElasticBand::lay(const PosedProblem& scene, const Waypoints& waypoints) {
+    const PathProblem& problem = scene.problem;
+    const PathPose& pose = scene.pose;
     m_nodes.clear();
     m_isFixed.clear();
     m_holds.clear();
@@ -51,7 +55,7 @@ void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const 
             m_holds.back().element = e, m_holds.back().X_GS = pose.X_GE[e], m_holds.back().from = lastFixed;
         }
         const int current = static_cast<int>(m_holds.size()) - 1;
-        for (const Vec3& guide : guides[e]) {
+        for (const Vec3& guide : waypoints[e]) {
             if (!m_nodes.empty()) layEdge(problem, lastGuided, m_nodes.back(), guide, kLayingDepth);
             addNode(guide, isPoint);
             if (!isPoint) noteContact(m_holds[current], static_cast<int>(m_nodes.size()) - 1);
@@ -67,7 +71,7 @@ void ElasticString::lay(const PathProblem& problem, const PathPose& pose, const 
 
 /** Lays the string from A, the last node, towards B around the surfaces that this edge would cross: it is
 bent outwards where it is deepest, and so on for both halves. B itself is not added. */
-void ElasticString::layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth) {
+void ElasticBand::layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth) {
     int crossed = -1;
     double deepest = -kLayingDepthTolerance;
     Vec3 bend = Vec3::Zero();
@@ -92,38 +96,38 @@ void ElasticString::layEdge(const PathProblem& problem, int firstHold, Vec3 A, c
     layEdge(problem, firstHold, bend, B, depth - 1);
 }
 
-void ElasticString::addNode(const Vec3& x, bool isFixed) {
+void ElasticBand::addNode(const Vec3& x, bool isFixed) {
     m_nodes.push_back(x);
     m_isFixed.push_back(isFixed);
 }
 
-void ElasticString::noteContact(Hold& hold, int node) {
+void ElasticBand::noteContact(Hold& hold, int node) {
     hold.first = hold.first < 0 ? node : std::min(hold.first, node);
     hold.last = std::max(hold.last, node);
 }
 
-void ElasticString::relax(const PathProblem& problem, double fineness, double tolerance, int maxSweeps) {
+void ElasticBand::relax(const PathProblem& problem, const BandLevel& level) {
     if (!(m_extent > 0)) return;
     double relaxation = 1;
     m_isAtRest = false;
-    for (int i = 0; i < maxSweeps && m_numHeights < m_maxHeights; ++i) {
+    for (int i = 0; i < level.maxSweeps && m_numHeights < m_maxHeights; ++i) {
         updatePortions(problem);
         if (i % kSweepsPerMesh == 0) {
-            remesh(problem, fineness);
+            remesh(problem, level.fineness);
             updatePortions(problem);
             forgetHeights();
         }
         const double move = sweep(problem, relaxation, i % 2 == 0);
         // Plain steps first, while the string falls into place; then over-relaxation for the long waves.
         if (i > 2 * kSweepsPerMesh) relaxation = std::min(kMaxRelaxation, relaxation + 0.05);
-        m_isAtRest = i > kSweepsPerMesh && move < tolerance;
+        m_isAtRest = i > kSweepsPerMesh && move < level.tolerance;
         if (m_isAtRest) break;
     }
     updatePortions(problem);
 }
 
 /** Portions begin and end in path order: the first hold whose portion goes beyond a node. */
-std::size_t ElasticString::findFirstHold(int node) const {
+std::size_t ElasticBand::findFirstHold(int node) const {
     const auto first = std::partition_point(m_holds.begin(), m_holds.end(),
                                             [node](const Hold& hold) { return hold.portionEnd <= node; });
     return static_cast<std::size_t>(first - m_holds.begin());
@@ -131,13 +135,13 @@ std::size_t ElasticString::findFirstHold(int node) const {
 
 /** Room at a point after a node: least of (size + distance) over the obstacles that act there or may soon, when
 a neighbour lifts and their portions grow. */
-double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int node) {
+double ElasticBand::calcRoom(const PathProblem& problem, const Vec3& x, int node) {
     double room = m_extent;
     const std::size_t first = findFirstHold(node);
     int beyond = 0;
-    for (std::size_t i = first > kNeighbours ? first - kNeighbours : 0; i < m_holds.size(); ++i) {
+    for (std::size_t i = first > kNeighbors ? first - kNeighbors : 0; i < m_holds.size(); ++i) {
         const Hold& hold = m_holds[i];
-        if (hold.portionBegin > node && ++beyond > static_cast<int>(kNeighbours)) break;
+        if (hold.portionBegin > node && ++beyond > static_cast<int>(kNeighbors)) break;
         if (node < hold.from || node > hold.to) continue;
         const Surface& surface = *problem.getElement(hold.element).surface;
         const double height = surface.calcHeight(hold.X_GS.shiftBack(x));
@@ -148,7 +152,7 @@ double ElasticString::calcRoom(const PathProblem& problem, const Vec3& x, int no
 }
 
 /** New nodes along the polygon, closer where room is small; contacts keep their place on the string. */
-void ElasticString::remesh(const PathProblem& problem, double fineness) {
+void ElasticBand::remesh(const PathProblem& problem, double fineness) {
     const int maxNodes = std::max(kMaxNodes, kMaxNodesPerElement * problem.getNumElements());
     const double least = m_extent / maxNodes;
     std::vector<Vec3> nodes;
@@ -198,7 +202,7 @@ void ElasticString::remesh(const PathProblem& problem, double fineness) {
 }
 
 /** Each obstacle acts from the last contact before it (in path order) to the first contact after it. */
-void ElasticString::updatePortions(const PathProblem& problem) {
+void ElasticBand::updatePortions(const PathProblem& problem) {
     const int n = static_cast<int>(m_holds.size());
     int before = 0;
     for (int i = 0; i < n; ++i) {
@@ -221,7 +225,7 @@ void ElasticString::updatePortions(const PathProblem& problem) {
 }
 
 /** One projected sweep over all nodes. @return largest move relative to the room of the node */
-double ElasticString::sweep(const PathProblem& problem, double relaxation, bool isForward) {
+double ElasticBand::sweep(const PathProblem& problem, double relaxation, bool isForward) {
     for (Hold& hold : m_holds) hold.first = hold.last = -1;
     double largest = 0;
     const int n = static_cast<int>(m_nodes.size());
@@ -242,7 +246,7 @@ double ElasticString::sweep(const PathProblem& problem, double relaxation, bool 
     return largest;
 }
 
-void ElasticString::forgetHeights() {
+void ElasticBand::forgetHeights() {
     m_travel.assign(m_nodes.size(), 0);
     for (Hold& hold : m_holds) {
         hold.seenFrom = hold.portionBegin;
@@ -250,14 +254,14 @@ void ElasticString::forgetHeights() {
     }
 }
 
-void ElasticString::moveNode(int node, const Vec3& x) {
+void ElasticBand::moveNode(int node, const Vec3& x) {
     m_travel[node] += (x - m_nodes[node]).norm();
     m_nodes[node] = x;
 }
 
 /** Moves a node out of the obstacles that act on it and notes the contacts. A height changes by about as much as the
 node travels: far above a surface it need not be asked for in every sweep. */
-void ElasticString::pushOut(const PathProblem& problem, int node, double& room) {
+void ElasticBand::pushOut(const PathProblem& problem, int node, double& room) {
     for (std::size_t i = findFirstHold(node); i < m_holds.size() && m_holds[i].portionBegin < node; ++i) {
         Hold& hold = m_holds[i];
         if (hold.isSwitchedOff) continue;
@@ -284,36 +288,46 @@ void ElasticString::pushOut(const PathProblem& problem, int node, double& room) 
 }
 
 /** Height of a node above a surface, in its sizes. */
-double ElasticString::calcHeight(const PathProblem& problem, const Hold& hold, int node) const {
+double ElasticBand::calcHeight(const PathProblem& problem, const Hold& hold, int node) const {
     const Surface& surface = *problem.getElement(hold.element).surface;
     return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node])) / surface.getSize();
 }
 
 /** True if the string is clear of the surface somewhere between its first and its last contact. */
-bool ElasticString::leavesAndReturns(const PathProblem& problem, const Hold& hold) const {
+bool ElasticBand::leavesAndReturns(const PathProblem& problem, const Hold& hold) const {
     for (int k = hold.first + 1; hold.touches() && k < hold.last; ++k)
         if (calcHeight(problem, hold, k) > kTouching) return true;
     return false;
 }
 
-bool ElasticString::restsOn(const PathProblem& problem, const Hold& hold, int node) const {
+bool ElasticBand::restsOn(const PathProblem& problem, const Hold& hold, int node) const {
     return !hold.isSwitchedOff && hold.from < node && node < hold.to && calcHeight(problem, hold, node) < kTouching;
 }
 
-StringFault ElasticString::findFault(const PathProblem& problem) const {
+std::vector<StringFault> ElasticBand::findGrooves(const PathProblem& problem) const {
+    std::vector<StringFault> grooves;
     const Hold* before = nullptr;
     for (const Hold& hold : m_holds) {
         if (!hold.touches()) continue;
-        if (before && hold.first < before->last) return {StringFault::Kind::OutOfOrder, before->element, hold.element};
+        if (before && hold.first < before->last)
+            grooves.push_back({StringFault::Kind::OutOfOrder, before->element, hold.element});
         before = &hold;
     }
-    for (const Hold& hold : m_holds) {
-        if (!hold.touches()) continue;
+    for (const Hold& hold : m_holds)
         for (const Hold& other : m_holds)
-            for (int k = hold.first; k <= hold.last && &other != &hold; ++k)
-                if (!m_isFixed[k] && restsOn(problem, other, k))
-                    return {StringFault::Kind::Groove, hold.element, other.element};
-    }
+            if (&other != &hold && hold.touches() && liesInGroove(problem, hold, other))
+                grooves.push_back({StringFault::Kind::Groove, hold.element, other.element});
+    return grooves;
+}
+
+bool ElasticBand::liesInGroove(const PathProblem& problem, const Hold& hold, const Hold& other) const {
+    for (int k = hold.first; k <= hold.last; ++k)
+        if (!m_isFixed[k] && restsOn(problem, other, k)) return true;
+    return false;
+}
+
+StringFault ElasticBand::findFault(const PathProblem& problem) const {
+    if (const std::vector<StringFault> grooves = findGrooves(problem); !grooves.empty()) return grooves.front();
     for (const Hold& hold : m_holds)
         if (leavesAndReturns(problem, hold)) return {StringFault::Kind::TwoContacts, hold.element, -1};
     for (const Hold& hold : m_holds)
@@ -322,7 +336,7 @@ StringFault ElasticString::findFault(const PathProblem& problem) const {
     return {};
 }
 
-void ElasticString::push(int element, const Vec3& by_G) {
+void ElasticBand::move(int element, const Vec3& by_G) {
     for (const Hold& hold : m_holds) {
         if (hold.element != element || !hold.touches()) continue;
         for (int k = hold.first; k <= hold.last; ++k)
@@ -330,34 +344,25 @@ void ElasticString::push(int element, const Vec3& by_G) {
     }
 }
 
-void ElasticString::extractContacts(const PathProblem& problem, const PathPose& pose,
-                                    std::vector<ObstacleContact>& contacts) const {
-    contacts.resize(problem.getNumElements());
+void ElasticBand::disturb() {
+    for (std::size_t k = 0; k < m_nodes.size(); ++k) {
+        const double phase = 1.0 + static_cast<double>(k) / kNodesPerTurn;
+        if (!m_isFixed[k])
+            m_nodes[k] += kDisturbance * m_room[k] * Vec3(std::sin(phase), std::sin(2 * phase), std::sin(3 * phase));
+    }
+}
+
+void ElasticBand::extractContacts(const PosedProblem& scene, std::vector<ObstacleContact>& contacts) const {
+    contacts.resize(scene.size());
     for (ObstacleContact& contact : contacts) contact.isTouched = contact.isSwitchedOff = false;
     for (const Hold& hold : m_holds) {
         ObstacleContact& contact = contacts[hold.element];
         contact.isSwitchedOff = hold.isSwitchedOff;
         contact.isTouched = hold.touches() && !hold.isSwitchedOff;
         if (!contact.isTouched) continue;
-        const Surface& surface = *problem.getElement(hold.element).surface;
-        const Pose& X_GS = pose.X_GE[hold.element];
-        const Vec3 before = m_nodes[hold.first] - m_nodes[hold.first - 1];
-        const Vec3 after = m_nodes[hold.last + 1] - m_nodes[hold.last];
-        // The string leaves the surface within the edges beside its contact nodes: half of each belongs to
-        // the turning that the first and last node see.
-        const Vec3 along = hold.last > hold.first ? Vec3(m_nodes[hold.first + 1] - m_nodes[hold.first]) : after;
-        contact.start.point = surface.findSurfacePoint(X_GS.shiftBack(m_nodes[hold.first]));
-        contact.start.tangent = X_GS.R.transpose() * (before.normalized() + along.normalized());
-        const DarbouxFrame frame = surface.calcFrame(contact.start.point, contact.start.tangent);
-        contact.start.tangent = frame.t;
-        double length = 0;
-        for (int k = hold.first; k < hold.last; ++k) length += (m_nodes[k + 1] - m_nodes[k]).norm();
-        if (hold.last == hold.first && std::abs(frame.kappaN) > 0) {
-            const double turn = std::acos(std::clamp(before.normalized().dot(after.normalized()), -1.0, 1.0));
-            length = std::min(turn / std::abs(frame.kappaN), 0.5 * (before.norm() + after.norm()));
-            contact.start.point = surface.calcDisplacedPoint(contact.start.point, -0.5 * length * frame.t);
-        }
-        contact.start.length = length;
+        const std::vector<Vec3> touching(m_nodes.begin() + hold.first, m_nodes.begin() + hold.last + 1);
+        contact.start = calcArcAlong(scene.getSurface(hold.element), scene.getPose(hold.element),
+                                     m_nodes[hold.first - 1], touching, m_nodes[hold.last + 1]);
     }
 }
 

@@ -4,15 +4,14 @@
 #include <limits>
 #include <vector>
 
-#include "tautline/paths/path_problem.h"
-#include "tautline/paths/path_solution.h"
+#include "paths/posed_problem.h"
 
 namespace tautline {
 
 /** Counts the passages through the hole of element e of a portion of a path, arcs between its segments included.
 @param first, last   indices of its segments, both included */
-HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int e,
-                            std::size_t first, std::size_t last);
+HolePassage calcHolePassage(const PosedProblem& scene, const PathSolution& path, int e, std::size_t first,
+                            std::size_t last);
 
 /** True if a string cannot have come from `before` to `after` without the ring going through it: the two, closed
 by the straight ways of their ends, are linked with the ring. False where nothing is known of `before`. */
@@ -24,12 +23,11 @@ struct PassageRule {
     std::vector<int> counts;  ///< by element; empty: as the path that this one was continued from
 };
 
-bool hasRightPassages(const PathProblem& problem, const PathPose& pose, const PassageRule& rule,
-                      const PathSolution& path);
+bool hasRightPassages(const PosedProblem& scene, const PassageRule& rule, const PathSolution& path);
 
 /** Notes the passages through holes, and which were lost since the path that this one was continued from. Those of a
 path that did not converge, or has left the hole, are no course to keep: the ones before them stay. */
-void updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path);
+void updatePassages(const PosedProblem& scene, bool isConverged, PathSolution& path);
 
 /** Where no search led through a hole again: later solves no longer look for the way, but still say that it was left.
  */

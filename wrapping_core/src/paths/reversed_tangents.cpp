@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "paths/path_cusps.h"
+#include "paths/reversed_tangents.h"
 
 #include <cmath>
 
@@ -8,28 +8,25 @@
 namespace tautline {
 namespace {
 
-bool arrivesReversed(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
-                     const StraightSegment& line) {
+bool arrivesReversed(const PosedProblem& scene, const PathSolution& path, const StraightSegment& line) {
     const int e = line.toElement;
-    return !problem.getElement(e).isPoint() && line.e.dot(pose.X_GE[e].R * path.contacts[e].geodesic.P.t) < 0;
+    return !scene.isPoint(e) && line.e.dot(scene.getPose(e).R * path.contacts[e].geodesic.P.t) < 0;
 }
 
-bool leavesReversed(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
-                    const StraightSegment& line) {
+bool leavesReversed(const PosedProblem& scene, const PathSolution& path, const StraightSegment& line) {
     const int e = line.fromElement;
-    return !problem.getElement(e).isPoint() && line.e.dot(pose.X_GE[e].R * path.contacts[e].geodesic.Q.t) < 0;
+    return !scene.isPoint(e) && line.e.dot(scene.getPose(e).R * path.contacts[e].geodesic.Q.t) < 0;
 }
 
 }  // namespace
 
-bool hasCusp(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
+bool hasReversedTangent(const PosedProblem& scene, const PathSolution& path) {
     for (const StraightSegment& line : path.segments)
-        if (arrivesReversed(problem, pose, path, line) || leavesReversed(problem, pose, path, line)) return true;
+        if (arrivesReversed(scene, path, line) || leavesReversed(scene, path, line)) return true;
     return false;
 }
 
-void turnCuspsRound(const PathProblem& problem, const PathPose& pose, const std::vector<double>* startLengths,
-                    PathSolution& path) {
+void reverseTangents(const PosedProblem& scene, const std::vector<double>* startLengths, PathSolution& path) {
     const auto calcShift = [&](int e, const DarbouxFrame& end, double lineLength) {
         const double curvature = std::abs(end.kappaN), length = path.contacts[e].start.length;
         const double back = curvature > 0 ? 2 * std::atan(curvature * lineLength) / curvature : 2 * lineLength;
@@ -38,14 +35,14 @@ void turnCuspsRound(const PathProblem& problem, const PathPose& pose, const std:
         return std::abs(length - back - start) < std::abs(length + on - start) ? -back : on;
     };
     for (const StraightSegment& line : path.segments) {
-        if (arrivesReversed(problem, pose, path, line)) {
+        if (arrivesReversed(scene, path, line)) {
             ObstacleContact& contact = path.contacts[line.toElement];
             const DarbouxFrame& P = contact.geodesic.P;
             const double shift = calcShift(line.toElement, P, line.length);
-            const Surface& surface = *problem.getElement(line.toElement).surface;
+            const Surface& surface = scene.getSurface(line.toElement);
             contact.start = calcCorrectedStart(surface, contact.start, P, Vec4(-shift, 0, 0, shift));
         }
-        if (leavesReversed(problem, pose, path, line)) {
+        if (leavesReversed(scene, path, line)) {
             ObstacleContact& contact = path.contacts[line.fromElement];
             contact.start.length += calcShift(line.fromElement, contact.geodesic.Q, line.length);
         }

@@ -1,37 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/** A coarse elastic string laid along a path and relaxed with one-sided contact: finds the contact set and
-the basin of the minimum where Newton-like steps from a poor guess do not. Milliseconds, not microseconds. */
+/** A coarse elastic string laid along a path and relaxed with one-sided contact: finds the contact set and the basin of
+the minimum where Newton-like steps from a poor guess do not. Milliseconds, not microseconds. After the elastic bands of
+Quinlan and Khatib (ICRA 1993), relaxed by projected successive over-relaxation (Cryer, SIAM J. Control 9, 1971). */
 #include <vector>
 
-#include "paths/start_guides.h"
-#include "tautline/paths/path_problem.h"
-#include "tautline/paths/path_solution.h"
+#include "paths/route.h"
+#include "paths/search_limits.h"
 
 namespace tautline {
 
-class ElasticString {
+class ElasticBand {
 public:
-    /** What the layings from here on may cost together is counted anew. */
+    /** Resets the cost that all bands of one search share. */
     void beginSearch() { m_numHeights = 0; }
 
-    /** Lays the string from origin to insertion along its guides, and around the surfaces that lie between. */
-    void lay(const PathProblem& problem, const PathPose& pose, const StartGuides& guides);
+    /** Lays the band from origin to insertion along its waypoints, and around the surfaces that lie between. */
+    void lay(const PosedProblem& scene, const Waypoints& waypoints);
 
-    /** Relaxes by projected successive over-relaxation until nodes move less than `tolerance` of their spacing per
-    sweep, or `maxSweeps`, or until this laying, or all layings of a search, have cost what they may. @param fineness
-    spacing of nodes relative to the default */
-    void relax(const PathProblem& problem, double fineness, double tolerance, int maxSweeps);
+    /** Relaxes until nodes move less than the level's tolerance of their spacing per sweep, or its sweeps are done, or
+    this band, or all bands of a search, have cost what they may. */
+    void relax(const PathProblem& problem, const BandLevel& level);
 
-    /** Moves the nodes that touch an element, to free a string from a saddle. @param by_G   in ground [m] */
-    void push(int element, const Vec3& by_G);
+    /** Moves the nodes that touch an element, to free a band from a saddle. @param by_G   in ground [m] */
+    void move(int element, const Vec3& by_G);
+
+    /** Moves every node by a little of its own, out of whatever symmetry the band was laid in. */
+    void disturb();
 
     /** Contact set, geodesic starts (touched) and switched-off obstacles as the string shows them. */
-    void extractContacts(const PathProblem& problem, const PathPose& pose,
-                         std::vector<ObstacleContact>& contacts) const;
+    void extractContacts(const PosedProblem& scene, std::vector<ObstacleContact>& contacts) const;
 
     /** Why the relaxed string is no smooth path with one arc on each surface, if it is not. */
     StringFault findFault(const PathProblem& problem) const;
+
+    /** All pairs of obstacles in the groove between which the band lies, or that it meets out of order. */
+    std::vector<StringFault> findGrooves(const PathProblem& problem) const;
 
     const std::vector<Vec3>& getNodes() const { return m_nodes; }
 
@@ -71,6 +75,7 @@ private:
     void pushOut(const PathProblem& problem, int node, double& room);
     double calcHeight(const PathProblem& problem, const Hold& hold, int node) const;
     bool leavesAndReturns(const PathProblem& problem, const Hold& hold) const;
+    bool liesInGroove(const PathProblem& problem, const Hold& hold, const Hold& other) const;
     bool restsOn(const PathProblem& problem, const Hold& hold, int node) const;
 
     std::vector<Vec3> m_nodes;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "paths/hole_passages.h"
+#include "paths/threading.h"
 
 #include <algorithm>
 
-#include "paths/obstacle_walk.h"
 #include "surfaces/arc_walker.h"
 
 namespace tautline {
@@ -44,8 +43,8 @@ void followArc(const Surface& surface, const ObstacleContact& contact, const Pos
 }
 
 /** The passage of a portion that reaches as far as one before it did, where the path still goes by its ends. */
-HolePassage calcComparablePassage(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int e,
-                                  const HolePassage& before, const HolePassage& own) {
+HolePassage calcComparablePassage(const PosedProblem& scene, const PathSolution& path, int e, const HolePassage& before,
+                                  const HolePassage& own) {
     if (!before.isKnown() || (before.from >= own.from && before.to <= own.to)) return own;
     const auto find = [&](int StraightSegment::*end, int element) {
         std::size_t k = 0;
@@ -56,42 +55,41 @@ HolePassage calcComparablePassage(const PathProblem& problem, const PathPose& po
     std::size_t last = find(&StraightSegment::toElement, std::max(before.to, own.to));
     if (first == path.segments.size()) first = find(&StraightSegment::fromElement, own.from);
     if (last == path.segments.size()) last = find(&StraightSegment::toElement, own.to);
-    return calcHolePassage(problem, pose, path, e, first, last);
+    return calcHolePassage(scene, path, e, first, last);
 }
 
 /** Calls visit(e, passage, isLeft) for every obstacle with a hole: its passages in `path`, and whether that has left
 the hole since the passages that are kept. */
 template <class Visitor>
-void visitHoles(const PathProblem& problem, const PathPose& pose, const PathSolution& path, Visitor visit) {
-    visitObstaclesOnSegments(problem, pose, path, [&](int e, int in, int out) {
-        const std::optional<Hole> hole = problem.getElement(e).surface->getHole();
+void visitHoles(const PosedProblem& scene, const PathSolution& path, Visitor visit) {
+    scene.forEachObstacleOnSegments(path, [&](int e, int in, int out) {
+        const std::optional<Hole> hole = scene.getSurface(e).getHole();
         if (!hole) return;
-        const HolePassage passage = calcHolePassage(problem, pose, path, e, in, out), &kept = path.contacts[e].passage;
-        const HolePassage comparable = calcComparablePassage(problem, pose, path, e, kept, passage);
+        const HolePassage passage = calcHolePassage(scene, path, e, in, out), &kept = path.contacts[e].passage;
+        const HolePassage comparable = calcComparablePassage(scene, path, e, kept, passage);
         visit(e, passage, hasLeftHole(*hole, kept, comparable));
     });
 }
 
 }  // namespace
 
-HolePassage calcHolePassage(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int e,
-                            std::size_t first, std::size_t last) {
-    const Pose& X_GH = pose.X_GE[e];
+HolePassage calcHolePassage(const PosedProblem& scene, const PathSolution& path, int e, std::size_t first,
+                            std::size_t last) {
+    const Pose& X_GH = scene.getPose(e);
     HolePassage passage;
     passage.from = path.segments[first].fromElement, passage.to = path.segments[last].toElement;
     passage.A_S = X_GH.shiftBack(path.segments[first].A), passage.B_S = X_GH.shiftBack(path.segments[last].B);
-    PassageCounter counter(*problem.getElement(e).surface->getHole(), passage);
+    PassageCounter counter(*scene.getSurface(e).getHole(), passage);
     counter.start(passage.A_S);
     for (std::size_t k = first; k < last; ++k) {
         const int between = path.segments[k].toElement;
-        const PathElement& element = problem.getElement(between);
-        if (element.isPoint()) {
+        if (scene.isPoint(between)) {
             counter.goTo(X_GH.shiftBack(path.segments[k].B));
             continue;
         }
-        const Pose& X_GS = pose.X_GE[between];
+        const Pose& X_GS = scene.getPose(between);
         const Pose X_HS(X_GH.R.transpose() * X_GS.R, X_GH.shiftBack(X_GS.p));
-        followArc(*element.surface, path.contacts[between], X_HS, problem.getElement(e).surface->getSize(), counter);
+        followArc(scene.getSurface(between), path.contacts[between], X_HS, scene.getSurface(e).getSize(), counter);
     }
     counter.goTo(passage.B_S);
     return passage;
@@ -104,10 +102,9 @@ bool hasLeftHole(const Hole& hole, const HolePassage& before, const HolePassage&
            0;
 }
 
-bool hasRightPassages(const PathProblem& problem, const PathPose& pose, const PassageRule& rule,
-                      const PathSolution& path) {
+bool hasRightPassages(const PosedProblem& scene, const PassageRule& rule, const PathSolution& path) {
     bool isRight = true;
-    visitHoles(problem, pose, path, [&](int e, const HolePassage& passage, bool isLeft) {
+    visitHoles(scene, path, [&](int e, const HolePassage& passage, bool isLeft) {
         if (rule.counts.empty())
             isRight = isRight && !isLeft;
         else if (rule.counts[e] != PassageRule::kAny)
@@ -116,8 +113,8 @@ bool hasRightPassages(const PathProblem& problem, const PathPose& pose, const Pa
     return isRight;
 }
 
-void updatePassages(const PathProblem& problem, const PathPose& pose, bool isConverged, PathSolution& path) {
-    visitHoles(problem, pose, path, [&](int e, const HolePassage& passage, bool isLeft) {
+void updatePassages(const PosedProblem& scene, bool isConverged, PathSolution& path) {
+    visitHoles(scene, path, [&](int e, const HolePassage& passage, bool isLeft) {
         ObstacleContact& contact = path.contacts[e];
         contact.hasLeftHole = isLeft || (contact.hasLeftHole && !contact.passage.isKnown());
         if (isConverged && !contact.hasLeftHole) contact.passage = passage;

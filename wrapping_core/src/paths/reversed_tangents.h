@@ -2,20 +2,18 @@
 #pragma once
 #include <vector>
 
-#include "tautline/paths/path_problem.h"
-#include "tautline/paths/path_solution.h"
+#include "paths/posed_problem.h"
 
 namespace tautline {
 
-/** True if a line meets its arc with e = -t, where eps vanishes too. */
-bool hasCusp(const PathProblem& problem, const PathPose& pose, const PathSolution& path);
+/** True if a line meets its arc with e = -t, where eps (thesis Eqn. 4.3) vanishes too. */
+bool hasReversedTangent(const PosedProblem& scene, const PathSolution& path);
 
 /** Moves the starts of arcs that meet their lines with e = -t to where they are likely to meet them with e = t.
 
 Seen from a point at distance l along a line that meets its arc with e = -t, the tangent point that is meant lies
 2 atan(kappa l)/kappa back along the arc if that is a circle, or on by the rest of the circle: of the two the one that
 leaves the arc nearer to its length in `startLengths` (by element), if those are given. */
-void turnCuspsRound(const PathProblem& problem, const PathPose& pose, const std::vector<double>* startLengths,
-                    PathSolution& path);
+void reverseTangents(const PosedProblem& scene, const std::vector<double>* startLengths, PathSolution& path);
 
 }  // namespace tautline

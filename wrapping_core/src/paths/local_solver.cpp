@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "paths/local_solver.h"
+
+#include "paths/reversed_tangents.h"
+#include "paths/search_limits.h"
+#include "paths/second_variation.h"
+#include "tautline/paths/contact_switch.h"
+#include "tautline/paths/segment_clearance.h"
+
+namespace tautline {
+namespace {
+
+using Condition = PathVerification::Condition;
+
+/** Below zero by how much a lifted obstacle is penetrated, beyond the tolerance of contact; else 0. */
+double calcExcess(const ObstacleContact& contact) {
+    const double depth = contact.clearance.distance * contact.clearance.scale;
+    return depth < kContactTolerance ? depth : 0;
+}
+
+/** @return the touched obstacle whose arc is the most negative, or that has swallowed an end; -1 if there is none */
+int findArcToLift(const PosedProblem& scene, const PathSolution& path) {
+    int lift = -1;
+    double shortest = kShortestArc;
+    scene.forEachObstacle([&](int e) {
+        const ObstacleContact& contact = path.contacts[e];
+        if (!contact.isTouched) return;
+        const double length = contact.isSwitchedOff ? -kInfinity : contact.start.length / scene.getSurface(e).getSize();
+        if (!(length < shortest)) return;
+        shortest = length;
+        lift = e;
+    });
+    return lift;
+}
+
+/** @return the lifted obstacle that a segment penetrates most, -1 if there is none */
+int findDeepest(const PosedProblem& scene, const PathSolution& path) {
+    int deepest = -1;
+    double depth = 0;
+    scene.forEachObstacle([&](int e) {
+        const ObstacleContact& contact = path.contacts[e];
+        if (contact.isTouched || contact.isSwitchedOff || contact.yields || !(calcExcess(contact) < depth)) return;
+        depth = calcExcess(contact);
+        deepest = e;
+    });
+    return deepest;
+}
+
+}  // namespace
+
+void goBack(const PathSolution& earlier, PathSolution& path) {
+    const int iterations = path.iterations, shots = path.shots;
+    const SolveReport report = path.report;
+    path = earlier;
+    path.iterations = iterations;
+    path.shots = shots;
+    path.report = report;
+}
+
+PathVerification LocalSolver::solve(const PosedProblem& scene, PathSolution& path) {
+    m_deepest.reserve(scene.size());
+    int numRepairs = 0;
+    for (int change = 0;; ++change) {
+        const PathVerification broken = findBrokenCondition(scene, path);
+        if (broken.isMinimum() || change >= calcMaxContactChanges(scene.size())) return broken;
+        if (!act(scene, broken, numRepairs, path)) return broken;
+    }
+}
+
+/** Solves the path error of the contact set and asks what is wrong with that path, contacts first. */
+PathVerification LocalSolver::findBrokenCondition(const PosedProblem& scene, PathSolution& path) {
+    const bool isStationary = findForwardPath(scene, path);
+    updateClearances(scene, path);
+    if (!isStationary) return {Condition::NotStationary, -1};
+    if (const int e = findArcToLift(scene, path); e >= 0) return {Condition::NegativeLength, e};
+    if (const int e = findDeepest(scene, path); e >= 0) return {Condition::Penetration, e};
+    watchNearestPlaces(scene, path);
+    if (const int e = findDeepest(scene, path); e >= 0) return {Condition::Penetration, e};
+    return verifyPath(scene.problem, scene.pose, path);
+}
+
+/** @return false where the condition cannot be mended from here: the table of local_solver.h */
+bool LocalSolver::act(const PosedProblem& scene, const PathVerification& broken, int& numRepairs, PathSolution& path) {
+    switch (broken.condition) {
+        case Condition::NegativeLength:
+            liftContact(path.contacts[broken.element]);
+            return true;
+        case Condition::Penetration:
+            if (path.contacts[broken.element].isTouched) return false;
+            touchDeepest(scene, path);
+            return true;
+        case Condition::ReversedTangent:
+            if (++numRepairs > kMaxRepairs) return false;
+            path.report.turnedTangents = true;
+            reverseTangents(scene, nullptr, path);
+            return true;
+        case Condition::Unstable:
+            if (++numRepairs > kMaxRepairs) return false;
+            path.report.leftSaddle = true;
+            leaveSaddle(scene, path);
+            return true;
+        default:
+            return false;
+    }
+}
+
+/** Of the obstacles that one segment penetrates, the deepest lifts it off most of the others; segments do not disturb
+each other. */
+void LocalSolver::touchDeepest(const PosedProblem& scene, PathSolution& path) {
+    m_deepest.assign(path.segments.size(), -1);
+    scene.forEachObstacle([&](int e) {
+        const ObstacleContact& contact = path.contacts[e];
+        if (contact.isTouched || contact.isSwitchedOff || contact.yields || !(calcExcess(contact) < 0)) return;
+        int& deepest = m_deepest[contact.segment];
+        if (deepest < 0 || calcExcess(contact) < calcExcess(path.contacts[deepest])) deepest = e;
+    });
+    for (const int e : m_deepest)
+        if (e >= 0) switchContact(scene.problem, scene.pose, e, path);
+}
+
+bool LocalSolver::findStationaryPath(const PosedProblem& scene, PathSolution& path) {
+    m_starts.resize(path.contacts.size());
+    for (std::size_t e = 0; e < path.contacts.size(); ++e) m_starts[e] = path.contacts[e].start;
+    if (m_newton.iterate(scene.problem, scene.pose, path)) return true;
+    restoreStarts(path);
+    path.report.usedMinimizer = true;
+    return m_minimizer.minimize(scene.problem, scene.pose, path);
+}
+
+/** A stationary path that turns back at an arc gives way to the minimizer's, if that does not. */
+bool LocalSolver::findForwardPath(const PosedProblem& scene, PathSolution& path) {
+    if (!findStationaryPath(scene, path)) return false;
+    if (!hasReversedTangent(scene, path)) return true;
+    m_reversed = path;
+    restoreStarts(path);
+    path.report.usedMinimizer = true;
+    if (!m_minimizer.minimize(scene.problem, scene.pose, path) || hasReversedTangent(scene, path))
+        goBack(m_reversed, path);
+    return true;
+}
+
+/** The starts from which the last contact set was solved. */
+void LocalSolver::restoreStarts(PathSolution& path) const {
+    for (std::size_t e = 0; e < path.contacts.size(); ++e) path.contacts[e].start = m_starts[e];
+}
+
+/** Downhill from where Newton's method began, as a string would fall; if that too ends on a saddle, from there along
+its direction of negative curvature. */
+void LocalSolver::leaveSaddle(const PosedProblem& scene, PathSolution& path) {
+    restoreStarts(path);
+    if (!m_minimizer.minimize(scene.problem, scene.pose, path)) return;
+    if (calcSecondVariation(scene, path).isStable()) return;
+    moveAlongNegativeCurvature(scene, kSaddleMove, path);
+    m_minimizer.minimize(scene.problem, scene.pose, path);
+}
+
+void updateClearances(const PosedProblem& scene, PathSolution& path) {
+    scene.forEachObstacleOnSegments(path, [&](int e, int in, int) {
+        ObstacleContact& contact = path.contacts[e];
+        if (contact.isTouched) return;
+        contact.segment = in;
+        const StraightSegment& line = path.segments[in];
+        findSegmentClearance(scene.getSurface(e), scene.getPose(e), line.A, line.B, contact.clearance);
+    });
+}
+
+void watchNearestPlaces(const PosedProblem& scene, PathSolution& path) {
+    scene.forEachObstacle([&](int e) {
+        ObstacleContact& contact = path.contacts[e];
+        if (contact.isTouched) return;
+        const StraightSegment& line = path.segments[contact.segment];
+        takeNearerClearance(scene.getSurface(e), scene.getPose(e), line.A, line.B, contact.clearance);
+    });
+}
+
+}  // namespace tautline

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "paths/posed_problem.h"
+
+namespace tautline {
+
+/** The first hint that a solved path does not follow: judged on the path itself, since a string may slip off where it
+was laid. A path passes an obstacle on the side on which the middle of its arc lies, or, where it is lifted, the place
+where its segment comes nearest.
+@param path   solved, its passages noted (threading.h) */
+RouteDeviation findDeviation(const PosedProblem& scene, const PathSolution& path);
+
+/** The same of sides and turns alone, where passages are judged otherwise. */
+RouteDeviation findSideDeviation(const PosedProblem& scene, const PathSolution& path);
+
+}  // namespace tautline

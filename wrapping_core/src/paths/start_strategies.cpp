@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "paths/start_strategies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "paths/route_check.h"
+#include "paths/search_limits.h"
+#include "tautline/paths/path_verification.h"
+#include "tautline/paths/segment_clearance.h"
+
+namespace tautline {
+namespace {
+
+using Condition = PathVerification::Condition;
+
+/** Takes all obstacles out of contact, and watches them on no side. */
+void clearContacts(PathSolution& path) {
+    for (ObstacleContact& contact : path.contacts) {
+        contact.isTouched = false;
+        contact.yields = false;
+        contact.clearance = LineClearance();
+    }
+}
+
+/** Whether a ring is to be threaded by going round its tube: no single arc is laid along that. */
+bool hasLoops(const PosedProblem& scene, const Route& route) {
+    bool hasLoops = false;
+    scene.forEachObstacle([&](int e) {
+        const bool isThreaded =
+            std::holds_alternative<ThreadHole>(scene.getHint(e)) || scene.problem.getElement(e).isAskedThroughHole;
+        hasLoops = hasLoops || (isThreaded && route.waypoints[e].size() > 1);
+    });
+    return hasLoops;
+}
+
+/** The first element from one on that has waypoints: the insertion at the latest. */
+int findNextWaypoint(const Route& route, int element) {
+    while (route.waypoints[element].empty()) ++element;
+    return element;
+}
+
+/** Watches a lifted obstacle on the side of a place near its surface. */
+void watchFrom(const Surface& surface, const Vec3& place_S, LineClearance& clearance) {
+    clearance.keptC = surface.findSurfacePoint(place_S);
+    clearance.keptN = surface.calcFrame(clearance.keptC, Vec3::UnitX()).N;
+}
+
+/** Whether a new search is due, of a path that failed to be a minimum this many times in a row: after 1, 2, 4, 8 ...
+steps, so that what cannot be found costs little in the end, and is found soon where it can be. */
+bool isSearchDue(int failedSteps) {
+    return (failedSteps & (failedSteps - 1)) == 0;
+}
+
+}  // namespace
+
+const PathSearch::Strategy PathSearch::kStrategies[] = {
+    {StartStrategy::Continued, &PathSearch::canContinue, &PathSearch::continuePrevious},
+    {StartStrategy::AlongPrevious, &PathSearch::canLayAlongPrevious, &PathSearch::layAlongPrevious},
+    {StartStrategy::Inserted, &PathSearch::canSearch, &PathSearch::insertContacts},
+    {StartStrategy::Band, &PathSearch::canSearch, &PathSearch::layAlongAskedRoute},
+    {StartStrategy::Released, &PathSearch::canRelease, &PathSearch::release},
+};
+
+bool PathSearch::findPath(const PosedProblem& scene, bool isContinued, PathSolution& path) {
+    m_scene = &scene;
+    m_isContinued = isContinued || !m_options.allowsColdStart;
+    m_failedSteps = isContinued ? path.report.failedSteps : 0;
+    m_isLoose = false;
+    m_bestRank = Rank::None;
+    m_asked.waypoints.clear();
+    m_previous.contacts = path.contacts;
+    for (const Strategy& strategy : kStrategies) {
+        if (!(this->*strategy.applies)()) continue;
+        path.report.strategy = strategy.kind;
+        path.wasCold = strategy.kind != StartStrategy::Continued;
+        (this->*strategy.attempt)(path);
+        if (m_bestRank == Rank::Minimum) break;
+    }
+    if (m_bestRank != Rank::Minimum) goBack(m_best, path);
+    if (path.wasCold) path.deviation = findThreadingDeviation(path);
+    const bool isMinimum = m_bestRank == Rank::Minimum || m_bestRank == Rank::MinimumElsewhere;
+    path.report.failedSteps = isMinimum ? 0 : m_failedSteps + 1;
+    m_scene = nullptr;
+    return isMinimum;
+}
+
+bool PathSearch::canLayAlongPrevious() const {
+    return m_isContinued && canSearch();
+}
+
+bool PathSearch::canSearch() const {
+    return m_options.allowsColdStart && isSearchDue(m_failedSteps);
+}
+
+bool PathSearch::canRelease() const {
+    return canSearch() && m_bestRank < Rank::MinimumElsewhere && hasHints();
+}
+
+bool PathSearch::hasHints() const {
+    bool hasHints = false;
+    m_scene->forEachObstacle([&](int e) {
+        hasHints = hasHints || !std::holds_alternative<std::monostate>(m_scene->getHint(e)) ||
+                   m_asked.threading.counts[e] != PassageRule::kAny;
+    });
+    return hasHints;
+}
+
+PathSearch::Rank PathSearch::judge(const PathVerification& broken, const PassageRule& threading, bool keepsSides,
+                                   const PathSolution& path) const {
+    // Where e = -t the path error vanishes, but the length is not stationary.
+    if (broken.condition == Condition::NotStationary || broken.condition == Condition::ReversedTangent)
+        return Rank::NotStationary;
+    if (!broken.isMinimum()) return Rank::Stationary;
+    if (!hasRightPassages(*m_scene, threading, path)) return Rank::MinimumElsewhere;
+    if (m_isLoose && !hasRightPassages(*m_scene, PassageRule(), path)) return Rank::MinimumElsewhere;
+    const bool isOnSide = !keepsSides || findSideDeviation(*m_scene, path).kind == RouteDeviation::Kind::None;
+    return isOnSide ? Rank::Minimum : Rank::MinimumElsewhere;
+}
+
+/** The first ring that a path laid anew does not go through as was asked, or as the straight line does. */
+RouteDeviation PathSearch::findThreadingDeviation(const PathSolution& path) const {
+    RouteDeviation deviation;
+    m_scene->forEachObstacleOnSegments(path, [&](int e, int in, int out) {
+        if (m_asked.waypoints.empty() || m_asked.threading.counts[e] == PassageRule::kAny) return;
+        if (deviation.kind != RouteDeviation::Kind::None || path.contacts[e].isSwitchedOff) return;
+        if (calcHolePassage(*m_scene, path, e, in, out).count != m_asked.threading.counts[e])
+            deviation = {RouteDeviation::Kind::Threading, e};
+    });
+    return deviation;
+}
+
+/** The first of equals stays. A minimum is where the search ends: `path` itself is the answer then. */
+void PathSearch::offer(Rank rank, const PathSolution& path) {
+    if (rank <= m_bestRank) return;
+    m_bestRank = rank;
+    if (rank != Rank::Minimum) m_best = path;
+}
+
+/** Keeps the course of the path that was given, whatever the hints say. What yielded to another obstacle is touched
+again if that leads to a minimum. */
+void PathSearch::continuePrevious(PathSolution& path) {
+    const bool hasYielded = std::any_of(path.contacts.begin(), path.contacts.end(),
+                                        [](const ObstacleContact& contact) { return contact.yields; });
+    offer(judge(m_local.solve(*m_scene, path), PassageRule(), false, path), path);
+    m_isLoose = m_bestRank == Rank::MinimumElsewhere;
+    if (!hasYielded || m_bestRank == Rank::Minimum) return;
+    for (ObstacleContact& contact : path.contacts) contact.yields = false;
+    offer(judge(m_local.solve(*m_scene, path), PassageRule(), false, path), path);
+}
+
+void PathSearch::layAlongPrevious(PathSolution& path) {
+    m_band.beginSearch();
+    solveAlongBand(calcPreviousRoute(*m_scene, m_previous), false, path);
+}
+
+void PathSearch::insertContacts(PathSolution& path) {
+    m_asked = calcAskedRoute(*m_scene);
+    solveInserted(m_asked, path);
+}
+
+void PathSearch::layAlongAskedRoute(PathSolution& path) {
+    m_band.beginSearch();
+    solveAlongBand(m_asked, true, path);
+    if (m_bestRank != Rank::Minimum) acceptFault(path);
+}
+
+void PathSearch::release(PathSolution& path) {
+    const Route released = calcReleasedRoute(*m_scene);
+    const StringFault fault = m_best.fault;
+    solveInserted(released, path);
+    if (m_bestRank >= Rank::MinimumElsewhere) return;
+    m_band.beginSearch();
+    solveAlongBand(released, true, path);
+    // Where nothing is known against the hinted string, what keeps the free one from a minimum is the reason.
+    if (fault.kind == StringFault::Kind::None) m_best.fault = path.fault;
+}
+
+/** A turn about a body is laid as an arc. Of other obstacles it is said on which side they are watched, and therefore
+touched: where the point of a hint is, or as the straight line between the waypoints beside them suggests. */
+void PathSearch::solveInserted(const Route& route, PathSolution& path) {
+    const PosedProblem& scene = *m_scene;
+    if (hasLoops(scene, route)) return;
+    clearContacts(path);
+    path.fault = {};
+    int last = 0;
+    for (int e = 1; e < scene.size(); ++e) {
+        const std::vector<Vec3>& points = route.waypoints[e];
+        ObstacleContact& contact = path.contacts[e];
+        if (scene.isObstacle(e) && !contact.isSwitchedOff) {
+            const Surface& surface = scene.getSurface(e);
+            const Pose& X_GS = scene.getPose(e);
+            const int next = findNextWaypoint(route, e + 1);
+            const Vec3 &before = route.waypoints[last].back(), &after = route.waypoints[next].front();
+            if (points.size() > 1) {
+                contact.isTouched = true;
+                contact.start = calcArcAlong(surface, X_GS, before, points, after);
+            } else if (points.size() == 1) {
+                watchFrom(surface, X_GS.shiftBack(points.front()), contact.clearance);
+            } else if (!scene.isPoint(last) || !scene.isPoint(next)) {
+                findSegmentClearance(surface, X_GS, before, after, contact.clearance);
+                watchFrom(surface, contact.clearance.C.p, contact.clearance);
+            }
+        }
+        if (!points.empty()) last = e;
+    }
+    m_broken = m_local.solve(scene, path);
+    offer(judge(m_broken, route.threading, true, path), path);
+}
+
+/** Ever finer bands, until the local solver leads on from one. */
+void PathSearch::solveAlongBand(const Route& route, bool keepsSides, PathSolution& path) {
+    path.fault = {};
+    m_atRestRank = Rank::None;
+    m_band.lay(*m_scene, route.waypoints);
+    int level = 0;
+    for (const BandLevel& band : kBandLevels) {
+        path.report.bandLevel = ++level;
+        tightenBand(band, route, keepsSides, path);
+        freeBand(route, keepsSides, path);
+        if (m_bestRank == Rank::Minimum || m_lastRank == Rank::MinimumElsewhere)
+            return;  // it has come to rest, or slipped off the route
+    }
+    // A band in which nothing is wrong may still slide, slower than was asked for.
+    const StringFault::Kind fault = m_band.findFault(m_scene->problem).kind;
+    if (fault == StringFault::Kind::Sliding) m_band.disturb();
+    const bool mayMove = fault == StringFault::Kind::None || fault == StringFault::Kind::Sliding;
+    if (mayMove && tightenBand(kPatientBand, route, keepsSides, path)) return;
+    path.fault = m_band.findFault(m_scene->problem);
+}
+
+/** @return true if the path that the relaxed band suggests leads on to a minimum on the route asked for */
+bool PathSearch::tightenBand(const BandLevel& level, const Route& route, bool keepsSides, PathSolution& path) {
+    const PosedProblem& scene = *m_scene;
+    m_broken = {Condition::NotStationary, -1};
+    m_band.relax(scene.problem, level);
+    if (path.shots > kMaxShotsPerElement * scene.size()) return false;
+    clearContacts(path);
+    m_band.extractContacts(scene, path.contacts);
+    m_broken = m_local.solve(scene, path);
+    const Rank rank = m_lastRank = judge(m_broken, route.threading, keepsSides, path);
+    offer(rank, path);
+    if (rank >= m_atRestRank && hasRightPassages(scene, route.threading, path)) {
+        m_atRestRank = rank;
+        m_atRest = path;
+    }
+    return rank == Rank::Minimum;
+}
+
+/** An arc beyond its conjugate point is shortest among geodesics nearby, but not among curves: only the band, which can
+bend inside the arc, leads on from there. Laid symmetrically it stays, so that it is moved sideways, farther each time.
+*/
+void PathSearch::freeBand(const Route& route, bool keepsSides, PathSolution& path) {
+    double move = kFirstBandMove;
+    for (int i = 0; i < kMaxBandMoves && m_broken.condition == Condition::ConjugatePoint; ++i, move *= 2) {
+        const int e = m_broken.element;
+        const Vec3 sideways_G = m_scene->getPose(e).rotate(path.contacts[e].geodesic.P.B);
+        m_band.move(e, move * m_scene->getSurface(e).getSize() * sideways_G);
+        if (tightenBand(kPatientBand, route, keepsSides, path)) return;
+    }
+}
+
+/** A string that rests on the route asked for, but is not one smooth path: the path next to it is the answer. */
+void PathSearch::acceptFault(PathSolution& path) {
+    using Kind = StringFault::Kind;
+    const StringFault fault = path.fault;
+    const bool isAtRest =
+        fault.kind == Kind::Groove || fault.kind == Kind::TwoContacts || fault.kind == Kind::OutOfOrder;
+    if (!isAtRest || m_atRestRank == Rank::None || m_atRestRank == Rank::MinimumElsewhere) {
+        m_best.fault = fault;
+        return;
+    }
+    if (m_atRestRank == Rank::NotStationary && fault.other >= 0) yieldInGrooves(path);
+    goBack(m_atRest, path);
+    path.fault = fault;
+    offer(Rank::AskedButBroken, path);
+}
+
+/** Where two bodies overlap under the string it lies in the groove between them, with a kink that no smooth path has.
+The path that lies on one of them and passes through the other is smooth, of a length that varies smoothly, and its
+forces balance: of the two ways to choose the longer is nearer to the string, which has to keep clear of both. */
+void PathSearch::yieldInGrooves(PathSolution& path) {
+    const std::vector<StringFault> grooves = m_band.findGrooves(m_scene->problem);
+    for (const bool yieldsSecond : {true, false}) {
+        clearContacts(path);
+        m_band.extractContacts(*m_scene, path.contacts);
+        for (const StringFault& groove : grooves) {
+            const int first = yieldsSecond ? groove.element : groove.other;
+            const int second = yieldsSecond ? groove.other : groove.element;
+            if (path.contacts[first].yields) continue;
+            path.contacts[second].isTouched = false;
+            path.contacts[second].yields = true;
+        }
+        const PathVerification broken = m_local.solve(*m_scene, path);
+        const Rank rank = std::min(judge(broken, PassageRule(), false, path), Rank::Stationary);
+        const bool isLonger = rank == m_atRestRank && path.length > m_atRest.length;
+        if (rank < Rank::Stationary || (m_atRestRank == Rank::Stationary && !isLonger)) continue;
+        m_atRestRank = rank;
+        m_atRest = path;
+    }
+}
+
+}  // namespace tautline
