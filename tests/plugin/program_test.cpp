@@ -257,7 +257,7 @@ TEST(DataProgram, SimulatesASecondOfTheRealArm) {
     const Outcome outcome = runProgram("run " + (shared / "data/opensim/models/arm26.osim").string() +
                                        " --duration 1 --out " + folder.string());
     ASSERT_EQ(outcome.exitCode, 0) << outcome.text;
-    EXPECT_NE(outcome.text.find("Thelen2003Muscle: run through"), std::string::npos);
+    EXPECT_NE(outcome.text.find("Thelen2003Muscle: the muscle model of Thelen (2003)"), std::string::npos);
     const StorageTable paths = readStorage(folder / "paths.sto");
     EXPECT_EQ(paths.rows.size(), 101u);
     for (const auto& row : paths.rows)
