@@ -102,6 +102,10 @@ double ContactGeometrySurface::calcDomainMargin(const SurfacePoint& point) const
     return m_heightMap ? m_heightMap->calcDomainMargin({point.p, point.p.head<2>(), 0}) : kInfinity;
 }
 
+double ContactGeometrySurface::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
+    return m_heightMap ? m_heightMap->calcHeightAndNormal(p_S, N_S) : ImplicitSurface::calcHeightAndNormal(p_S, N_S);
+}
+
 ImplicitValue ContactGeometrySurface::calcImplicit(const Vec3& p_S) const {
     if (m_heightMap) return m_heightMap->calcImplicit(p_S);
     const SimTK::Vec3 p = toSimTK(p_S);

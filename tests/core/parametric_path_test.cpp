@@ -115,7 +115,7 @@ TEST(ParametricPaths, HaveTheLengthsAndRatesOfImplicitOnes) {
     EXPECT_GE(touched, 4);
 }
 
-/** A muscle over a fitted patch of bone: solved inside the domain, and said so where it runs off. */
+/** A muscle over a fitted patch of bone: solved inside the domain and beside it, and said so where it runs off. */
 TEST(PatchPaths, AreSolvedInsideAndReportedOutside) {
     Eigen::MatrixXd dome(7, 7);
     for (int i = 0; i < 7; ++i)
@@ -123,19 +123,21 @@ TEST(PatchPaths, AreSolvedInsideAndReportedOutside) {
             dome(i, j) = 0.3 - 0.4 * std::pow(-1 + i / 3.0, 2) - 0.2 * std::pow(-1 + j / 3.0, 2);
     const auto patch =
         std::make_shared<BSplinePatch>(BSplinePatch::interpolateHeights({Vec2(-1, -1), Vec2(1, 1)}, dome));
-    const auto solve = [&](double y, double z) {
+    const auto solve = [&](double x, double y, double z) {
         PathProblem problem;
         problem.addPoint("origin");
         problem.addObstacle("bone", patch);
         problem.addPoint("insertion");
         PathPose pose;
-        pose.X_GE = {Pose(Vec3(-0.9, y, z)), Pose(), Pose(Vec3(0.9, y + 0.1, z + 0.05))};
+        pose.X_GE = {Pose(Vec3(-x, y, z)), Pose(), Pose(Vec3(x, y + 0.1, z + 0.05))};
         return solvePath(problem, pose);
     };
-    const PathSolution inside = solve(0.1, 0.1), outside = solve(1.1, -0.1);
+    const PathSolution inside = solve(0.9, 0.1, 0.1), outside = solve(1.5, 0.1, -0.56), beside = solve(0.9, 1.1, -0.1);
     EXPECT_EQ(inside.status, PathStatus::Solved);
     EXPECT_TRUE(inside.contacts[1].isTouched);
     EXPECT_EQ(outside.status, PathStatus::LeftDomain) << outside.length;
+    EXPECT_EQ(beside.status, PathStatus::Solved);
+    EXPECT_FALSE(beside.contacts[1].isTouched);
 }
 
 /** A capsule and a layered ellipsoid as obstacles. */

@@ -142,15 +142,49 @@ TEST(ContactGeometrySurfaceTest, AHeightMapIsOutsideAboveAndGoesOnBeyondItsEdges
     EXPECT_FALSE(surface.isInDomain({Vec3(1.1, 0, 0.016), Vec2::Zero(), 0}));
 }
 
+TEST(ContactGeometrySurfaceTest, InsideAHeightMapIsThePrismBelowItsRectangle) {
+    const ContactGeometrySurface surface(makeHeightMap());
+    Random random(12);
+    int inside = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 p = i % 2 == 0 ? random.vector(1.5) : Vec3(random.vector(1) + Vec3(0, 0, random.uniform(-100, 0)));
+        const double x = p.x(), y = p.y();
+        const bool isBelow = std::abs(x) <= 1 && std::abs(y) <= 1 && p.z() < 0.5 - 0.4 * x * x - 0.3 * y * y;
+        EXPECT_EQ(surface.calcHeight(p) < 0, isBelow) << p.transpose();
+        inside += isBelow;
+    }
+    EXPECT_GT(inside, 200);
+    for (const double z : {-1e4, -3.0, -0.1, 0.0, 0.3, 100.0}) EXPECT_GT(surface.calcHeight(Vec3(3, -0.2, z)), 0) << z;
+}
+
 TEST(ContactGeometrySurfaceTest, APathOverTheEdgeOfAHeightMapHasLeftItsDomain) {
     BareScene scene;
-    const GeometryCase c{
-        "", makeHeightMap(), 0, nullptr, SimTK::Vec3(1.2, -3, -2), SimTK::Vec3(1.25, 3, -2), SimTK::Vec3(1.2, 0, 0)};
+    const GeometryCase c{"",
+                         makeHeightMap(),
+                         0,
+                         nullptr,
+                         SimTK::Vec3(0.2, -2, -0.45),
+                         SimTK::Vec3(0.25, 2, -0.45),
+                         SimTK::Vec3(0.2, 0, 0.5)};
     const Cable cable = makeCable(scene, c, std::make_shared<ContactGeometrySurface>(c.geometry));
     const State state = scene.system.realizeTopology();
     scene.system.realize(state, Stage::Position);
     EXPECT_EQ(cable.getStatus(state), PathStatus::LeftDomain);
     EXPECT_TRUE(std::isfinite(cable.getLength(state)));
+}
+
+// 2026-11-26: what lay below the continuation of a map counted as inside.
+TEST(ContactGeometrySurfaceTest, APathBesideAHeightMapIsStraight) {
+    for (const Real z : {-2.0, -0.1, 0.4}) {
+        BareScene scene;
+        const GeometryCase c{
+            "", makeHeightMap(), 0, nullptr, SimTK::Vec3(1.2, -3, z), SimTK::Vec3(1.25, 3, z), SimTK::Vec3(1.2, 0, 0)};
+        const Cable cable = makeCable(scene, c, std::make_shared<ContactGeometrySurface>(c.geometry));
+        const State state = scene.system.realizeTopology();
+        scene.system.realize(state, Stage::Position);
+        EXPECT_EQ(cable.getStatus(state), PathStatus::Solved) << cable.explainStatus(state);
+        EXPECT_NEAR(cable.getLength(state), (c.B_S - c.A_S).norm(), 1e-12);
+    }
 }
 
 TEST(ContactGeometrySurfaceTest, ThreadsShareAHeightMap) {

@@ -35,6 +35,7 @@ void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S
 curvature, may show one on the far side, clear of it: the height over the tangent plane at the kept place tells. */
 void staySunk(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, LineClearance& clearance) {
     if (!(clearance.distance > 0) || !(clearance.N.dot(clearance.keptN) < 0)) return;
+    if (!surface.isInDomain(clearance.C)) return;  // beside the surface
     const double s = std::clamp(e_S.dot(clearance.keptC.p - A_S), 0.0, length);
     const double height = clearance.keptN.dot(A_S + s * e_S - clearance.keptC.p);
     if (!(height < 0)) return;

@@ -171,12 +171,14 @@ ImplicitValue OffsetSurface::calcImplicit(const Vec3& p) const {
                 shape.kappaB * frame.B * frame.B.transpose()};
 }
 
-/** The distance itself where p has a foot, else the base's estimate. */
+/** The distance itself where p has a foot, else the base's estimate. Beside the domain of the base there is no layer.
+ */
 double OffsetSurface::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
     const double height = getBase().calcHeightAndNormal(p_S, N_S);
     SurfacePoint C;
     DarbouxFrame frame;
     if (height < -0.5 * getBase().getSize() || !findFoot(getBase(), p_S, C, frame)) return height - m_thickness;
+    if (!getBase().isInDomain(C)) return height;
     N_S = frame.N;
     return (p_S - C.p).dot(frame.N) - m_thickness;
 }

@@ -39,6 +39,7 @@ void Surface::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance&
         if (step.norm() > tolerance) continue;
         const DarbouxFrame end = calcFrame(C, e_S);
         if (!(end.N.dot(clearance.N) > 0)) return;     // slid to another critical point
+        if (!isInDomain(C)) return;                    // where the surface only goes on for the search
         const double distance = end.N.dot(A_S - C.p);  // e . N = 0: the same from any point of the line
         const double s0 = e_S.dot(C.p - A_S);
         clearance.C = C, clearance.N = end.N, clearance.lineCoordinate = s0, clearance.distance = distance;

@@ -24,9 +24,12 @@ class SurfaceNet {
 public:
     enum class Growth { Complete, OutOfBox, TooManyCells };
 
-    /** @param centre   where the middle of cell (0, 0, 0) lies @param step   width of the cells */
+    /** @param centre   a surface point: the middle of cell (0, 0, 0) @param step   width of the cells */
     SurfaceNet(const Surface& surface, const Vec3& centre, double step)
-        : m_surface(surface), m_centre(centre), m_step(step) {}
+        : m_surface(surface),
+          m_centre(centre),
+          m_step(step),
+          m_hasEdge(std::isfinite(surface.calcDomainMargin({centre}))) {}
 
     /** The cells farthest out first, which soon shows whether the surface has an end.
     @param box   cells beyond it are not entered @param stopsThere   nor is anything else after such a cell */
@@ -95,8 +98,15 @@ private:
 
     double getHeight(const Index& node) {
         const auto [found, isNew] = m_heights.emplace(node, 0);
-        if (isNew) found->second = m_surface.calcHeight(calcNode(node));
+        if (isNew) found->second = calcFootHeight(calcNode(node));
         return found->second;
+    }
+
+    /** Beside the domain that above the surface that goes on there: what lies below the domain would have walls. */
+    double calcFootHeight(const Vec3& p) const {
+        if (!m_hasEdge) return m_surface.calcHeight(p);
+        const SurfacePoint foot = m_surface.findSurfacePoint(p);
+        return m_surface.calcFrame(foot, Vec3::UnitX()).N.dot(p - foot.p);
     }
 
     bool isCut(const Index& node, int axis) { return (getHeight(node) < 0) != (getHeight(shift(node, axis, 1)) < 0); }
@@ -201,6 +211,7 @@ private:
     const Surface& m_surface;
     Vec3 m_centre;
     double m_step;
+    bool m_hasEdge;  ///< of its domain
     std::map<Index, double> m_heights;
     std::map<Index, Cell> m_cells;
     std::set<Index> m_seen;
@@ -239,8 +250,8 @@ std::vector<Vec3> findSeeds(const Surface& surface, const std::vector<Vec3>& nea
     std::vector<Vec3> seeds;
     for (const Vec3& start : starts) {
         SurfacePoint point = surface.findSurfacePoint(start);
-        // A search that did not arrive leaves a height far above rounding.
-        if (!point.p.allFinite() || !(std::abs(surface.calcHeight(point.p)) < 1e-6 * size)) continue;
+        // A search that did not arrive goes on from where it ended.
+        if (!point.p.allFinite() || !((surface.findSurfacePoint(point.p).p - point.p).norm() < 1e-6 * size)) continue;
         if (moveIntoDomain(surface, point)) seeds.push_back(point.p);
     }
     return seeds;

@@ -13,8 +13,9 @@ class HeightMapPatch;
 /** Any smooth SimTK::ContactGeometry (isSmooth()) as a surface that a cable can wrap. SimTK's implicit
 function is positive inside; its sign is turned here and nowhere else.
 
-A SmoothHeightMap is defined over a rectangle: beyond its edges iterates go on over a smooth continuation, and an
-answer that lies there has the status LeftDomain. Its bicubic surface is asked directly, with a hint of each call's
+A SmoothHeightMap is a sheet over a rectangle: what lies below it is inside, what lies beside the rectangle is not,
+wherever in height. Beyond its edges iterates go on over a smooth continuation, and an answer that lies there has the
+status LeftDomain. Its bicubic surface is asked directly, with a hint of each call's
 own, since SmoothHeightMap shares one between threads. */
 class ContactGeometrySurface final : public ImplicitSurface {
 public:
@@ -28,6 +29,7 @@ public:
     std::string getDescription() const override;
     double getSize() const override { return m_size; }
     ImplicitValue calcImplicit(const Vec3& p_S) const override;
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
     double calcDomainMargin(const SurfacePoint& point) const override;
 
 private:

@@ -128,7 +128,10 @@ integrator calls it inline. */
 template <class Derived>
 class ImplicitShape : public Surface {
 public:
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
+    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override { return calcFormHeight(p_S, N_S); }
+
+    /** f over the length of its gradient: the height above f = 0, which goes on where the surface has an edge. */
+    double calcFormHeight(const Vec3& p_S, Vec3& N_S) const {
         const auto value = derived().calcImplicit(p_S);
         const double g = value.gradient.norm();
         if (!(g > 0)) {  // the centre of a quadric: as deep as can be, any direction out
@@ -173,14 +176,15 @@ public:
 
 protected:
     /** Newton steps along the gradient until the height is rounding (thesis Eqn. 7.24), each no longer
-    than the surface's size so that a far start does not overshoot. */
+    than the surface's size so that a far start does not overshoot. Beside the domain it is f = 0 that is sought: the
+    height leads to the edge. */
     Vec3 projectToSurface(Vec3 p) const {
         constexpr int kMaxIterations = 50;
         const double tolerance = 2e-16 * getSize();
         double previous = kInfinity;
         for (int i = 0; i < kMaxIterations; ++i) {
             Vec3 N;
-            const double height = calcHeightAndNormal(p, N);
+            const double height = isInDomain({p}) ? calcHeightAndNormal(p, N) : calcFormHeight(p, N);
             if (!(std::abs(height) > tolerance) ||
                 (std::abs(height) < 1e-14 * getSize() && std::abs(height) >= previous))
                 break;

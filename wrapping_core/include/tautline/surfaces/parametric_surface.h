@@ -139,10 +139,17 @@ struct ParametricGeodesicEquations {
                                                                   method starts; exact on the surface if there are
                                                                   several charts
 
-and may replace getNormalSign, chooseChart and calcTurned. No call of these is virtual. */
+and may replace getDomain, getNormalSign, chooseChart and calcTurned. No call of these is virtual.
+
+A surface with a domain is a sheet that ends at the domain's edges. Inside are the points that are below the sheet,
+however deep, and whose foot lies in the domain. Beside the domain x(u, v) goes on smoothly, so that a search may pass
+there, but nothing is inside. A coordinate that goes round needs a domain of more than one turn. */
 template <class Derived>
 class ParametricShape : public Surface {
 public:
+    /** Where the surface is defined. */
+    ParameterDomain getDomain() const { return {}; }
+
     /** +1 if xu x xv points outward, -1 if inward. */
     double getNormalSign() const { return 1; }
 
@@ -154,12 +161,20 @@ public:
     worth keeping while it is sound; -1: none */
     int chooseChart(const Vec3& /*p_S*/, const Vec3& /*t_S*/, int /*current*/) const { return 0; }
 
-    /** Signed distance from the nearest point. */
+    /** Signed distance from the nearest point, of the domain or beside it. There it is no less than the way of the foot
+    to the domain, and leads away from that: a bound of the distance from the sheet and from what lies below it. */
     double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
         const SurfacePoint foot = findNearest(p_S);
         const ParametricValue s = derived().calcParametric(foot.uv, foot.chart);
         N_S = derived().getNormalSign() * s.xu.cross(s.xv).normalized();
-        return N_S.dot(p_S - s.x);
+        const double height = N_S.dot(p_S - s.x);
+        const ParameterDomain domain = derived().getDomain();
+        if (domain.calcMargin(foot.uv) >= 0) return height;
+        const Vec3 aside = s.x - derived().calcParametric(domain.clamp(foot.uv), foot.chart).x;
+        const double way = aside.norm();
+        if (!(way > height)) return height;
+        N_S = aside / way;
+        return way;
     }
 
     SurfacePoint findSurfacePoint(const Vec3& p_S) const override { return findNearest(p_S); }

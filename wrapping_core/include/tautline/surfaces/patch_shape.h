@@ -14,9 +14,10 @@ const` for uv in the domain.
 
 Beyond an edge u = u0, at d = u - u0, the patch goes on as x + x_u d + x_uu psi(d), psi(d) = w^2 (sqrt(1 + d^2/w^2) -
 1), and so in v: twice continuously differentiable, and growing only linearly, with w a quarter of the domain's width.
-Iterates may pass there; isInDomain judges the answer.
+Iterates may pass there; isInDomain judges the answer. Points beside the domain are not inside (ParametricShape).
 
-A height patch has x = u, y = v and z = f(u, v): heights and nearby points then need no search. */
+A height patch has x = u, y = v and z = f(u, v): heights and nearby points then need no search. The foot of a point is
+taken straight below or above it, so that what is inside is the prism under the rectangle, up to the sheet. */
 template <class Derived>
 class PatchShape : public ParametricShape<Derived> {
 public:
@@ -26,7 +27,8 @@ public:
     double getNormalSign() const { return m_normalSign; }
 
     double calcDomainMargin(const SurfacePoint& point) const override {
-        return m_domain.calcMargin(this->resolve(point).uv);
+        const bool isAtItsXY = m_isHeightPatch && point.p.allFinite();
+        return m_domain.calcMargin(isAtItsXY ? Vec2(point.p.head<2>()) : this->resolve(point).uv);
     }
 
     ParametricValue calcParametric(const Vec2& uv, int) const {
@@ -49,14 +51,21 @@ public:
         return m_isHeightPatch ? Vec2(p_S.head<2>()) : m_grid.findNearest(p_S);
     }
 
-    /** Of a height patch: z - f(x, y) over the length of its gradient; else the distance. */
+    /** Of a height patch: z - f(x, y) over the length of its gradient, and beside the rectangle no less than the
+    distance from that; else the distance. */
     double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
         if (!m_isHeightPatch) return ParametricShape<Derived>::calcHeightAndNormal(p_S, N_S);
         const ParametricValue s = calcParametric(p_S.head<2>(), 0);
         const Vec3 gradient(-s.xu.z(), -s.xv.z(), 1);
         const double slope = gradient.norm();
         N_S = m_normalSign * gradient / slope;
-        return m_normalSign * (p_S.z() - s.x.z()) / slope;
+        const double height = m_normalSign * (p_S.z() - s.x.z()) / slope;
+        if (m_domain.calcMargin(p_S.head<2>()) >= 0) return height;
+        const Vec2 aside = p_S.head<2>() - m_domain.clamp(p_S.head<2>());
+        const double way = aside.norm();
+        if (!(way > height)) return height;
+        N_S = Vec3(aside.x() / way, aside.y() / way, 0);
+        return way;
     }
 
 protected:

@@ -43,11 +43,14 @@ public:
     /** Characteristic length [m]: the scale of tolerances, step limits and hints. */
     virtual double getSize() const = 0;
 
-    /** Height of a point above the surface [m]: exact in sign, first order in size near the surface.
+    /** Height of a point above the surface [m]: exact in sign, first order in size near the surface, finite everywhere.
+    Far from the surface it should not exceed the distance by more than a factor of two, for searches that march by it.
+    What lies beside the domain of a surface with edges is not inside: the height there is positive.
     @param p_S   any point
     @param N_S   unit outward direction of steepest ascent at p_S */
     virtual double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const = 0;
 
+    /** The height alone. */
     double calcHeight(const Vec3& p_S) const {
         Vec3 N_S;
         return calcHeightAndNormal(p_S, N_S);
