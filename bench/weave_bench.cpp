@@ -22,7 +22,7 @@ void stepWeave(benchmark::State& state, WeaveScene::Kind kind) {
     PathSolver solver(options);
     PathPose pose;
     constexpr int kWarmUp = 50, kPeriod = 400;
-    // Poses are made beforehand; the motion runs there and back, so that each step starts from its neighbour.
+    // Poses are made beforehand; the motion runs there and back, so that each step starts from its neighbor.
     std::vector<PathPose> poses(kPeriod);
     for (int k = 0; k < kPeriod; ++k) scene.calcPose(k * WeaveScene::kTimeStep, poses[k]);
     // The guess leads to a minimum over cylinders, to a saddle over some ellipsoids.

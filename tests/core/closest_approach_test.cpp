@@ -37,7 +37,7 @@ TEST(ClosestApproach, IsBelowTheSurfaceWhereManySamplesSayFromNearAndFromFar) {
         const double size = c.surface->getSize();
         for (const double reach : {3.0, 30.0, 300.0})
             for (int i = 0; i < 15; ++i) {
-                const Vec3 middle = c.centre + c.extent * random.vector(0.8), e = random.vector(1).normalized();
+                const Vec3 middle = c.center + c.extent * random.vector(0.8), e = random.vector(1).normalized();
                 const Vec3 A = middle - reach * size * e;
                 const double length = 2 * reach * size;
                 const double s = c.surface->findLowestPoint(A, e, length);

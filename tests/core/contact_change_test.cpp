@@ -15,7 +15,7 @@ namespace {
 constexpr double kRadius = 0.7, kBefore = 1.3, kAfter = 0.8;  ///< of the circle; from the origin to T, from T to q = 0
 constexpr double kSlope = 1.1;                                ///< of the insertion's motion against the line [rad]
 
-/** A string over a round obstacle in a plane. At q = 0 it is the straight tangent at T = (0, 0), the circle's centre
+/** A string over a round obstacle in a plane. At q = 0 it is the straight tangent at T = (0, 0), the circle's center
 being C = (0, -R); the insertion moves by q d with d = (cos, -sin) of kSlope: with q > 0 towards the obstacle. */
 struct TangentScene {
     PathProblem problem;

@@ -61,7 +61,7 @@ TEST(ConjugatePoint, AgreesWithTheFlagAndWithTheFieldOnEverySurface) {
     for (const testing::SurfaceCase& c : testing::makeSurfaceCases()) {
         SCOPED_TRACE(c.name);
         const Surface& surface = *c.surface;
-        for (const SurfaceLawSample& sample : testing::makeSamples(surface, c.extent, c.centre, c.length, {}, 6, 7)) {
+        for (const SurfaceLawSample& sample : testing::makeSamples(surface, c.extent, c.center, c.length, {}, 6, 7)) {
             const GeodesicStart start = makeStart(surface, sample.p_S, sample.direction_S, 3 * sample.length);
             Geodesic arc;
             surface.shootGeodesic(start, {}, arc);

@@ -184,15 +184,15 @@ TEST_P(GeodesicLaws, JacobiFieldsHaveUnitWronskian) {
 }
 
 /** Scaled by 1000 the numbers are the same but for rounding; by 1024, where nothing is rounded anew, step for step. */
-TEST_P(GeodesicLaws, MillimetresGiveTheAnswerOfMetres) {
+TEST_P(GeodesicLaws, MillimetersGiveTheAnswerOfMeters) {
     for (const double scale : {1000.0, 1024.0}) {
-        const std::vector<Shape> metres = makeShapes(), millimetres = makeShapes(scale);
+        const std::vector<Shape> meters = makeShapes(), millimeters = makeShapes(scale);
         std::size_t k = 0;
-        while (metres[k].name != GetParam().name) ++k;
+        while (meters[k].name != GetParam().name) ++k;
         forRandomGeodesics(7, [&](const GeodesicStart& start, double length) {
             const Geodesic small = shoot(surface(), start, length);
             const GeodesicStart scaled{{Vec3(scale * start.point.p)}, start.tangent, 0};
-            const Geodesic large = shoot(*millimetres[k].surface, scaled, scale * length);
+            const Geodesic large = shoot(*millimeters[k].surface, scaled, scale * length);
             const double tolerance = scale == 1024 ? 1e-15 : 1e-12 * calcGrowth(small, size());
             EXPECT_LE((large.Q.x / scale - small.Q.x).norm() / size(), tolerance);
             EXPECT_LE((large.Q.t - small.Q.t).norm(), tolerance);

@@ -33,7 +33,7 @@ protected:
 
     void compare(const FrameVariations& d, int j, const DarbouxFrame& plus, const DarbouxFrame& minus, double h,
                  double growth) const {
-        // Columns 0, 1, 3 are per metre, column 2 per radian; x is a length, N and B are not.
+        // Columns 0, 1, 3 are per meter, column 2 per radian; x is a length, N and B are not.
         const double size = surface().getSize(), unit = j == 2 ? 1 : size, tolerance = kTolerance * growth;
         EXPECT_LT(((plus.x - minus.x) / (2 * h) - d.x.col(j)).norm() * unit / size, tolerance) << "x, variation " << j;
         EXPECT_LT(((plus.N - minus.N) / (2 * h) - d.N.col(j)).norm() * unit, tolerance) << "N, variation " << j;

@@ -12,7 +12,7 @@
 namespace tautline::testing {
 namespace {
 
-/** Two bodies on a hinge about `axis` through `centre`; the muscle runs from the first one, over a surface at the hinge
+/** Two bodies on a hinge about `axis` through `center`; the muscle runs from the first one, over a surface at the hinge
 on its back, to the second one, which turns by q. The surface is fixed to either. */
 class HingedArm {
 public:
@@ -24,7 +24,7 @@ public:
     }
 
     static constexpr int kElements = 3;
-    const Vec3 axis = Vec3(0.1, -0.05, 1).normalized(), centre{0.005, 0.01, -0.004};
+    const Vec3 axis = Vec3(0.1, -0.05, 1).normalized(), center{0.005, 0.01, -0.004};
 
     PathPose calcPose(double q) const {
         const Pose turn = calcTurn(q);
@@ -36,7 +36,7 @@ public:
     /** dX/dq of all elements: the hinge's turning of those that it turns. */
     std::vector<SpatialVelocity> calcVelocity(const PathPose& pose) const {
         std::vector<SpatialVelocity> V(kElements);
-        for (int e = m_surfaceTurns ? 1 : 2; e < kElements; ++e) V[e] = {axis, axis.cross(pose.X_GE[e].p - centre)};
+        for (int e = m_surfaceTurns ? 1 : 2; e < kElements; ++e) V[e] = {axis, axis.cross(pose.X_GE[e].p - center)};
         return V;
     }
     PathSolution solve(double q) const { return solvePath(m_problem, calcPose(q)); }
@@ -76,7 +76,7 @@ public:
 private:
     Pose calcTurn(double q) const {
         const Mat3 R = Eigen::AngleAxisd(q, axis).toRotationMatrix();
-        return {R, centre - R * centre};
+        return {R, center - R * center};
     }
 
     Pose m_X_ES;

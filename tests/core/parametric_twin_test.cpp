@@ -27,7 +27,7 @@ TEST_P(ParametricTwins, AreTheSameSurface) {
     const testing::TwinCase& c = GetParam();
     const Surface &f = *c.implicitForm, &x = *c.parametricForm;
     EXPECT_DOUBLE_EQ(f.getSize(), x.getSize());
-    const auto samples = testing::makeSamples(f, c.extent, c.centre, c.length, c.specialPoints, 100, kSeed);
+    const auto samples = testing::makeSamples(f, c.extent, c.center, c.length, c.specialPoints, 100, kSeed);
     const auto check = [&](double tolerance) {
         SurfaceLawOptions options;
         options.exactTolerance = tolerance;
@@ -161,7 +161,7 @@ TEST(OffsetSurface, GeodesicsOverTheBaseAreThoseOfTheDistanceFunction) {
         const double size = c.surface->getSize(), h = 0.1 * size;
         const OffsetSurface offset(c.surface, h);
         for (const SurfaceLawSample& sample :
-             testing::makeSamples(*c.surface, c.extent, c.centre, c.length, {}, 5, kSeed)) {
+             testing::makeSamples(*c.surface, c.extent, c.center, c.length, {}, 5, kSeed)) {
             SCOPED_TRACE(c.name);
             const SurfacePoint foot = c.surface->findSurfacePoint(sample.p_S);
             const DarbouxFrame base = c.surface->calcFrame(foot, sample.direction_S);

@@ -47,7 +47,7 @@ TEST(PathSolverClosedForm, CylinderWithObliqueTangents) {
 TEST(PathSolverClosedForm, SphereGreatCircle) {
     Random random(91);
     const double r = 0.5;
-    for (double y : {0.49, 0.4, 0.1, 1e-3}) {  // height of the line over the centre, from grazing to the middle
+    for (double y : {0.49, 0.4, 0.1, 1e-3}) {  // height of the line over the center, from grazing to the middle
         const double planar = calcPlanarLength({{Vec2(-1, y)}, {Vec2(0, 0), r, -1}, {Vec2(1.5, y)}});
         PathScene scene;
         scene.point(Vec3(-1, y, 0))

@@ -17,7 +17,7 @@
 namespace tautline::testing {
 namespace {
 
-/** Length of a string laid over the end of the middle axis of an ellipse, from `distance` before its centre to as far
+/** Length of a string laid over the end of the middle axis of an ellipse, from `distance` before its center to as far
 behind, in the ellipse's plane. */
 double calcLengthOver(double ahead, double aside, double distance) {
     // The tangent from (-distance, 0) touches at cos(angle) = ahead / distance from (-ahead, 0).
@@ -32,7 +32,7 @@ double calcLengthOver(double ahead, double aside, double distance) {
     return 2 * (touched + Vec2(distance, 0)).norm() + arc;
 }
 
-/** Length of a string over the top of a circle, from (x_O, y_O) to (x_I, y_I) about its centre. */
+/** Length of a string over the top of a circle, from (x_O, y_O) to (x_I, y_I) about its center. */
 double calcLengthOverCircle(double radius, const Vec2& O, const Vec2& I) {
     const double O_C = O.norm(), I_C = I.norm();
     const double turn = std::acos(O.dot(I) / (O_C * I_C)) - std::acos(radius / O_C) - std::acos(radius / I_C);
@@ -60,19 +60,19 @@ std::vector<AwkwardLine> makeAwkwardLines() {
     const Answer toSurface{PathStatus::Solved, 2.5, false}, outOfInside{PathStatus::EndInside, 0.5, false};
     // A line through both tubes of the torus would touch it twice, which is not there yet (README).
     const Answer twice{PathStatus::NotMinimum, kNaN, true};
-    // The torus is hollow where the other shapes are full: its centre and (0.5, 0, 0) lie in its hole.
+    // The torus is hollow where the other shapes are full: its center and (0.5, 0, 0) lie in its hole.
     const Answer inHole{PathStatus::Solved, 0.5, false};
     const Answer overTube{PathStatus::Solved, calcLengthOverCircle(0.25, Vec2(-2, 0), Vec2(0.5, 0)), true};
     // Of the ellipsoid 0.5 x 1 x 2 the shorter side of the chord: over y along x, over x along z.
     const Answer overWaist{PathStatus::Solved, calcLengthOver(0.5, 1, 3), true};
     const Answer overLength{PathStatus::Solved, calcLengthOver(2, 0.5, 3), true};
-    return {{"through the centre", {-3, 0, 0}, {3, 0, 0}, over, over, overWaist, twice},
+    return {{"through the center", {-3, 0, 0}, {3, 0, 0}, over, over, overWaist, twice},
             {"along the axis", {0, 0, -3}, {0, 0, 3}, over, inAxis, overLength, straight},
-            {"both at the centre", {0, 0, 0}, {0, 0, 0}, inside, inside, inside, none},
+            {"both at the center", {0, 0, 0}, {0, 0, 0}, inside, inside, inside, none},
             {"coincident outside", {3, 0, 0}, {3, 0, 0}, none, none, none, none},
             {"tangent", {-3, 0.5, 0}, {3, 0.5, 0}, touching, touching, somewhere, twice},
             {"ending on the surface", {-3, 0, 0}, {-0.5, 0, 0}, toSurface, toSurface, toSurface, overTube},
-            {"from centre to surface", {0, 0, 0}, {0.5, 0, 0}, outOfInside, outOfInside, outOfInside, inHole}};
+            {"from center to surface", {0, 0, 0}, {0.5, 0, 0}, outOfInside, outOfInside, outOfInside, inHole}};
 }
 
 /** @param size   of the surface: an end that lies on it is lifted by 1e-7 of that (path_solver.h) */
@@ -104,7 +104,7 @@ TEST(PathSolverDegenerate, EveryShapeFromEveryAwkwardPlace) {
             }
 }
 
-/** Two spheres about one centre: the larger one carries the string, the other one is clear by the difference. */
+/** Two spheres about one center: the larger one carries the string, the other one is clear by the difference. */
 TEST(PathSolverDegenerate, OfConcentricSpheresTheLargerIsTouched) {
     const Vec3 O(-3, 0.1, 0), I(2, 0.3, 0);
     for (const double second : {0.3, 0.499, 0.501, 0.7})
@@ -136,7 +136,7 @@ TEST(PathSolverDegenerate, TheSameSphereTwiceIsWrappedOnce) {
 }
 
 /** In the order of the path, overlapping spheres are bridged like ones that stand apart: the string leaves the first
-before it comes to the groove. Two tangents, two arcs up to the tops, and the distance of the centres between. */
+before it comes to the groove. Two tangents, two arcs up to the tops, and the distance of the centers between. */
 TEST(PathSolverDegenerate, StringOverOverlappingSpheresSideBySideBridgesTheGroove) {
     for (const double distance : {0.01, 0.4, 0.8, 1.0, 1.2})
         for (const std::optional<Vec3>& hint : {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 1, 0))}) {
@@ -254,7 +254,7 @@ TEST(PathSolverPlane, PointOnItIsSolved) {
 }
 
 // Symptom (2026-11-25): not_converged, "still slides", since the string lay in a plane of symmetry and stayed there.
-TEST(PathSolverDegenerate, ChordsThroughAxesAndCentresAreSolvedInBothForms) {
+TEST(PathSolverDegenerate, ChordsThroughAxesAndCentersAreSolvedInBothForms) {
     const std::shared_ptr<const Surface> surfaces[] = {std::make_shared<Sphere>(0.4),
                                                        std::make_shared<ParametricSphere>(0.4),
                                                        std::make_shared<Cylinder>(0.4),

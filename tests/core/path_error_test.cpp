@@ -39,12 +39,12 @@ TEST(PathErrorJacobian, NothingStandsOutsideTheBand) {
             }
 }
 
-TEST(PathErrorJacobian, ViaPointsDecoupleTheirNeighbours) {
+TEST(PathErrorJacobian, ViaPointsDecoupleTheirNeighbors) {
     const RandomChain chain("SE.TC", 72);
     for (const MatrixXd& jacobian : {chain.calcJacobian(), chain.calcDifferences()}) {
         EXPECT_EQ(jacobian.block(8, 0, 8, 8).norm(), 0);
         EXPECT_EQ(jacobian.block(0, 8, 8, 8).norm(), 0);
-        EXPECT_GT(jacobian.block(4, 0, 4, 4).norm(), 0);  // which neighbours without one are not
+        EXPECT_GT(jacobian.block(4, 0, 4, 4).norm(), 0);  // which neighbors without one are not
     }
 }
 

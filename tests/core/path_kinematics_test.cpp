@@ -26,19 +26,19 @@ struct MovingScene {
         problem.addPoint("origin");
         pose.X_GE.emplace_back(random.rotation(), Vec3(-1, 0, 0) + random.vector(0.1));
         for (int i = 0; i < 4; ++i) {
-            // Over even ones and under odd ones, held between the neighbours. The tube of the torus passes
+            // Over even ones and under odd ones, held between the neighbors. The tube of the torus passes
             // through (2, 0, 0) along z.
             const int side = i % 2 == 0 ? 1 : -1;
-            Vec3 hint(0, 0.4 * side, 0), centre(i, -0.25 * side, 0);
+            Vec3 hint(0, 0.4 * side, 0), center(i, -0.25 * side, 0);
             Mat3 R = Mat3::Identity();
             if (i == 2) {
                 // z_S = x_G turned into the ring's axis along y: the ring lies in the plane of x and z.
                 R = Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()).toRotationMatrix();
-                hint = Vec3(-2, 0, -0.3 * side), centre += Vec3(2, 0.1 * side, 0);
+                hint = Vec3(-2, 0, -0.3 * side), center += Vec3(2, 0.1 * side, 0);
             }
             problem.addObstacle("obstacle" + std::to_string(i), surfaces[i], hint);
             const Mat3 tilt = Eigen::AngleAxisd(random.uniform(-0.1, 0.1), random.unitVector()).toRotationMatrix();
-            pose.X_GE.emplace_back(tilt * R, centre + random.vector(0.05));
+            pose.X_GE.emplace_back(tilt * R, center + random.vector(0.05));
             if (i == 1) {
                 problem.addPoint("via");
                 pose.X_GE.emplace_back(random.rotation(), Vec3(1.5, 0, 0) + random.vector(0.05));

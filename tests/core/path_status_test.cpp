@@ -59,7 +59,7 @@ TEST(PathSolverStatus, ArcBeyondItsConjugatePointIsNotMinimum) {
 }
 
 // Symptom (2026-11-22): status Solved and length 6.406 for a path over the far side of a sphere that holds it by
-// unstable balance only (the way under the centre has 6.273). The arc alone has no conjugate point; the second
+// unstable balance only (the way under the center has 6.273). The arc alone has no conjugate point; the second
 // variation over arc and straight parts together is not positive.
 TEST(PathSolverStatus, PathBalancedOnTheFarSideOfASphereIsLeftForTheShorterWay) {
     PathScene scene;

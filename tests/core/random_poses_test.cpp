@@ -150,7 +150,7 @@ TEST(RandomScenes, OfEverySurfaceEndWithAnExplainedStatusAndFiniteNumbers) {
             const auto add = [&](const testing::SurfaceCase& added, const Vec3& p) {
                 problem.addObstacle(added.name, added.surface);
                 const Mat3 R = random.rotation();
-                pose.X_GE.emplace_back(R, p - R * added.centre + 0.5 * random.vector(added.surface->getSize()));
+                pose.X_GE.emplace_back(R, p - R * added.center + 0.5 * random.vector(added.surface->getSize()));
             };
             add(c, Vec3::Zero());
             if (i % 3 == 0) add(cases[random.integer(0, static_cast<int>(cases.size()) - 1)], Vec3(0.5 * reach, 0, 0));

@@ -145,7 +145,7 @@ TEST(SignedDistance, ClosedForms) {
         LineClearance sphere, cylinder;
         findSegmentClearance(Sphere(0.5), X, X * A, X * B, sphere);
         EXPECT_NEAR(sphere.distance, (A - A.dot(e) * e).norm() - 0.5, 1e-13);
-        EXPECT_NEAR(sphere.lineCoordinate, -A.dot(e), 1e-13);  // 0.5 from the centre at most
+        EXPECT_NEAR(sphere.lineCoordinate, -A.dot(e), 1e-13);  // 0.5 from the center at most
         findSegmentClearance(Cylinder(0.5), X, X * A, X * B, cylinder);
         const Vec3 common = e.cross(Vec3::UnitZ());
         const double s = -A.head<2>().dot(e.head<2>()) / e.head<2>().squaredNorm();
@@ -155,7 +155,7 @@ TEST(SignedDistance, ClosedForms) {
 }
 
 TEST(SignedDistance, TorusSeenAlongItsTube) {
-    // Lines parallel to the axis, beside and through the tube whose centre is at (2, 0, 0).
+    // Lines parallel to the axis, beside and through the tube whose center is at (2, 0, 0).
     for (double x : {2.5, 2.301, 2.3, 2.299, 2.1, 1.6}) {
         LineClearance clearance;
         findSegmentClearance(Torus(2, 0.3), Pose(), Vec3(x, 0, -3), Vec3(x, 0, 3), clearance);
@@ -216,8 +216,8 @@ double sinkThrough(const Sunk& sunk, double depth, int steps) {
     return clearance.distance;
 }
 
-// Symptom (2026-11-22): on the sphere the normal that is kept turned with the line about the centre, step by step,
-// and read +0.108 once the line was through. Symptom (2026-11-25): +1.9 on an ellipsoid, beyond its centres of
+// Symptom (2026-11-22): on the sphere the normal that is kept turned with the line about the center, step by step,
+// and read +0.108 once the line was through. Symptom (2026-11-25): +1.9 on an ellipsoid, beyond its centers of
 // curvature.
 TEST(SignedDistance, LinePassingCleanThroughInManyStepsReadsNegativeOnTheKeptSide) {
     for (const Sunk& sunk : makeSunk())

@@ -42,7 +42,7 @@ TEST(SingleContactWitness, IsTheHeightAtWhichASegmentPassesTheOtherSideOfARing) 
     for (const double z : {1.0, 0.7, 0.4, 0.25, 0.21, 0.19, 0.15}) {
         scene.lower(z);
         ASSERT_EQ(scene.path.status, PathStatus::Solved);
-        // From the tangent point inwards the line is n . x = n . c + r, n its normal: the other centre is 2 n_x below.
+        // From the tangent point inwards the line is n . x = n . c + r, n its normal: the other center is 2 n_x below.
         const Vec3 n = scene.path.contacts[1].geodesic.P.N;
         const double height = -n.dot(Vec3(-2, 0, 0));
         EXPECT_NEAR(scene.calcWitness(), std::min(1.0, height / 0.2), 1e-9) << z;

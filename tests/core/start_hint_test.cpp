@@ -50,10 +50,10 @@ TEST(StartSide, DecidesOnWhichSideAPathPasses) {
 
 // 2026-11-25: on the wrong side, and not following, where the direction had a part along the axis.
 TEST(StartSide, IsTakenOnALongSurfaceAlsoAskew) {
-    const Vec3 A(-3, 0.1, 0), B(3, -0.4, 0.2), centre(1.9, 0.05, 0);
+    const Vec3 A(-3, 0.1, 0), B(3, -0.4, 0.2), center(1.9, 0.05, 0);
     for (const double alongAxis : {0.0, 0.1, 0.3, 0.45, 1.0, -0.5}) {
         const PassOnSide hint{Vec3(0, 1, alongAxis)};
-        const SingleObstacle scene(std::make_shared<Cylinder>(0.25), hint, A - centre, B - centre);
+        const SingleObstacle scene(std::make_shared<Cylinder>(0.25), hint, A - center, B - center);
         EXPECT_EQ(scene.path.status, PathStatus::Solved);
         EXPECT_TRUE(scene.path.followsHints()) << alongAxis;
         ASSERT_TRUE(scene.contact().isTouched) << alongAxis;
@@ -259,7 +259,7 @@ TEST(HolePassage, ReportsAPathThatLeavesItsRing) {
 }
 
 // 2026-11-25: nothing was said where the string touched, or left, the obstacle beside the ring in the same step.
-TEST(HolePassage, IsMissedAlsoWhereTheNeighbourIsTouchedOrLeftInTheSameStep) {
+TEST(HolePassage, IsMissedAlsoWhereTheNeighborIsTouchedOrLeftInTheSameStep) {
     for (const bool isTouchedFirst : {false, true}) {
         PathProblem problem;
         problem.addPoint("origin");
@@ -365,9 +365,9 @@ TEST(SegmentClearance, OfAThinEllipsoidFarAwayIsTheDistance) {
     LineClearance clearance;
     findSegmentClearance(thin, Pose(), A, B, clearance);
     const Vec3 e = (B - A).normalized();
-    const double toCentre = (A - e.dot(A) * e).norm();
-    EXPECT_GT(clearance.distance, toCentre - 0.0111);
-    EXPECT_LT(clearance.distance, toCentre - 0.0036);
+    const double toCenter = (A - e.dot(A) * e).norm();
+    EXPECT_GT(clearance.distance, toCenter - 0.0111);
+    EXPECT_LT(clearance.distance, toCenter - 0.0036);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ class SurfaceLaws : public ::testing::TestWithParam<testing::SurfaceCase> {};
 
 TEST_P(SurfaceLaws, HoldAtRandomAndSpecialPoints) {
     const testing::SurfaceCase& c = GetParam();
-    const auto samples = testing::makeSamples(*c.surface, c.extent, c.centre, c.length, c.specialPoints, 40, kSeed);
+    const auto samples = testing::makeSamples(*c.surface, c.extent, c.center, c.length, c.specialPoints, 40, kSeed);
     SurfaceLawOptions options;
     options.differenceTolerance = c.differenceTolerance;
     const std::vector<std::string> broken = checkSurfaceLaws(*c.surface, samples, options);

@@ -37,7 +37,7 @@ std::map<std::pair<int, int>, int> countEdges(const SurfaceMesh& mesh) {
     return counts;
 }
 
-/** Points at which a facet ends without a neighbour. */
+/** Points at which a facet ends without a neighbor. */
 std::vector<int> findRim(const SurfaceMesh& mesh) {
     std::vector<int> rim;
     const auto counts = countEdges(mesh);
@@ -110,7 +110,7 @@ TEST_P(SurfaceMeshTest, FacetsCoverTheSurface) {
     const SurfaceMesh mesh = calcMesh();
     double width = 0;
     for (const auto& face : mesh.faces) width = std::max(width, std::sqrt(calcAreaVector(mesh, face).norm()));
-    const auto samples = makeSamples(surface, GetParam().extent, GetParam().centre, 1, {}, 30, 20260411u);
+    const auto samples = makeSamples(surface, GetParam().extent, GetParam().center, 1, {}, 30, 20260411u);
     int numCovered = 0;
     for (const SurfaceLawSample& sample : samples) {
         const SurfacePoint point = surface.findSurfacePoint(sample.p_S);

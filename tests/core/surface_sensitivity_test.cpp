@@ -32,7 +32,7 @@ public:
         Geodesic bestArc;
         double firmest = 0;
         for (int attempt = 0, candidates = 0; attempt < kAttempts && candidates < kCandidates; ++attempt) {
-            const Vec3 near = surfaceCase.centre + random.vector(surfaceCase.extent);
+            const Vec3 near = surfaceCase.center + random.vector(surfaceCase.extent);
             GeodesicStart start{surface.findSurfacePoint(near), random.unitVector(), 0};
             const DarbouxFrame frame = surface.calcFrame(start.point, start.tangent);
             start.tangent = frame.t;
@@ -183,7 +183,7 @@ TEST_P(SurfaceSensitivity, SecondDerivativesAreSymmetricButForTheCommutatorOfRot
     commutator.setZero();
     std::vector<SpatialForce> F;
     calcUnitForces(scene.getPath(), scene.getPose(), F);
-    const double turn = 1 / scene.getSize();  // unit of rotations, that of translations being one metre
+    const double turn = 1 / scene.getSize();  // unit of rotations, that of translations being one meter
     for (int column = 0; column < 6 * kPoses; ++column) {
         Motion V(kPoses);
         SpatialVelocity& v = V[column / 6];

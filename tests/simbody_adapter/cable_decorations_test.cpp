@@ -99,7 +99,7 @@ TEST(CableDecorationsTest, DrawThePathWithItsCurvesAndTheSurfaces) {
     EXPECT_EQ(drawing.others, 0);
 }
 
-TEST(CableDecorationsTest, TouchedSurfacesHaveTheirColour) {
+TEST(CableDecorationsTest, TouchedSurfacesHaveTheirColor) {
     BareScene scene;
     Cable cable(scene.cables, scene.matter.Ground(), SimTK::Vec3(-2, 0, 0), scene.matter.Ground(),
                 SimTK::Vec3(2, 0, 0));

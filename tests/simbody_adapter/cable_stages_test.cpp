@@ -286,7 +286,7 @@ TEST(CableStages, AcceptedStepsThatAreNoSolutionAreCounted) {
     }
     const CableStatistics statistics = cable.getStatistics();
     EXPECT_GE(statistics.numSteps, 300);
-    // Inside for a chord of the sphere at 0.1 above its centre.
+    // Inside for a chord of the sphere at 0.1 above its center.
     const Real share = 2 * std::sqrt(0.24) / 3;
     EXPECT_NEAR(Real(statistics.numDegradedSteps) / Real(statistics.numSteps), share, 0.02);
     EXPECT_EQ(clear.getStatistics().numSteps, statistics.numSteps);

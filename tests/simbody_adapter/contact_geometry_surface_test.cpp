@@ -116,7 +116,7 @@ TEST(ContactGeometrySurfaceTest, EverySmoothKindObeysTheLaws) {
 }
 
 // 2026-11-25: spheres of radii far above 50 had a size of 51.7.
-TEST(ContactGeometrySurfaceTest, ItsSizeGoesWithTheGeometryFromMillimetresToKilometres) {
+TEST(ContactGeometrySurfaceTest, ItsSizeGoesWithTheGeometryFromMillimetersToKilometers) {
     for (const double radius : {1e-3, 0.5, 60.0, 1e3, 1e6})
         EXPECT_NEAR(ContactGeometrySurface(SimTK::ContactGeometry::Sphere(radius)).getSize(), radius, 1e-9 * radius);
 }

@@ -22,7 +22,7 @@ struct Obstacle {
 Obstacle makeCylinder(Real x, Real radius) {
     return {std::make_shared<Cylinder>(radius), SimTK::Vec3(x, 0, 0), SimTK::Vec3(0, radius, 0)};
 }
-/** Its centre so low that no string which bears on its top slips off sideways. */
+/** Its center so low that no string which bears on its top slips off sideways. */
 Obstacle makeSphere(Real x, Real y, Real radius) {
     return {std::make_shared<Sphere>(radius), SimTK::Vec3(x, y, 0), SimTK::Vec3(0, radius, 0)};
 }
@@ -65,7 +65,7 @@ private:
 
 /** The mass swings in the x-y plane to the right of the obstacles, held there by springs, so that the string
 from the left bears on their tops while the mass is low and lifts while it is high: it cannot pass to another
-side, since the line between its ends stays above their centres, and it is always taut.
+side, since the line between its ends stays above their centers, and it is always taut.
 
 The springs are soft on purpose: Simbody comes to an event by cubic interpolation within the step, an error
 of order (frequency x step)^4 at each, which at ten times the stiffness is 1.4e-9 of the energy per event and
@@ -188,8 +188,8 @@ TEST(Energy, IsKeptOverACylinderAndASphere) {
     expectEnergyKept({makeCylinder(-0.4, 0.25), makeSphere(0.25, -0.1, 0.4)});
 }
 
-/** The integrator's accuracy is absolute, in metres: what it loses per event falls with the size of the motion as
-its power -0.8. In metres the same motion loses 2.1e-9 at accuracy 1e-12, here, in tens of metres, a tenth. */
+/** The integrator's accuracy is absolute, in meters: what it loses per event falls with the size of the motion as
+its power -0.8. In meters the same motion loses 2.1e-9 at accuracy 1e-12, here, in tens of meters, a tenth. */
 void expectEnergyKeptForAMinute(const std::vector<Obstacle>& obstacles) {
     SwingingMass scene(obstacles, 0, 10);
     const EnergyBook book = keepBook(scene, 1e-12, 60);

@@ -155,7 +155,7 @@ struct ConditionalScene : BareScene {
     CableElementIndex sphere, point;
 };
 
-/** Over a sphere of radius 0.4 from (-1, 0.3) and (1 + x, 0.3) about its centre. */
+/** Over a sphere of radius 0.4 from (-1, 0.3) and (1 + x, 0.3) about its center. */
 Real calcLengthOverSphere(Real x) {
     const Real a = std::hypot(1, 0.3), b = std::hypot(1 + x, 0.3);
     const Real arc = SimTK::Pi - std::atan(0.3) - std::atan2(0.3, 1 + x) - std::acos(0.4 / a) - std::acos(0.4 / b);

@@ -22,12 +22,12 @@ struct QuarterCircles : BareScene {
         system.realize(state, Stage::Velocity);
     }
 
-    /** Each obstacle stands on a body of its own, whose origin is the obstacle's centre. */
-    void add(Real angleAboutY, const SimTK::Vec3& centre_G, std::shared_ptr<const Surface> surface,
+    /** Each obstacle stands on a body of its own, whose origin is the obstacle's center. */
+    void add(Real angleAboutY, const SimTK::Vec3& center_G, std::shared_ptr<const Surface> surface,
              const SimTK::Vec3& hint_G) {
         const SimTK::Rotation R_GS(angleAboutY, SimTK::YAxis);
-        MobilizedBody::Weld body(matter.Ground(), Transform(centre_G), makeBody(), Transform());
-        cable.addObstacle(body, Transform(R_GS), surface, ~R_GS * (hint_G - centre_G));
+        MobilizedBody::Weld body(matter.Ground(), Transform(center_G), makeBody(), Transform());
+        cable.addObstacle(body, Transform(R_GS), surface, ~R_GS * (hint_G - center_G));
     }
 
     Cable cable;

@@ -17,7 +17,7 @@ public:
     enum class Kinds {
         Basic,    ///< sphere, cylinder, ellipsoid and torus
         All,      ///< every kind and form there is
-        Aligned,  ///< of these, along ground's axes and in places that are exact: lines through axes and centres; all
+        Aligned,  ///< of these, along ground's axes and in places that are exact: lines through axes and centers; all
                   ///< hints
     };
 
@@ -54,7 +54,7 @@ private:
     }
     int pick(int count) { return static_cast<int>(m_random() % static_cast<unsigned>(count)); }
     Vec3 point(double extent) { return {uniform(-extent, extent), uniform(-extent, extent), uniform(-extent, extent)}; }
-    /** Aligned: in a coarse lattice, so that centres lie on lines and in planes of others. */
+    /** Aligned: in a coarse lattice, so that centers lie on lines and in planes of others. */
     Vec3 makePlace() {
         const Vec3 place = point(2);
         return m_kinds == Kinds::Aligned ? Vec3((2 * place).array().round() / 2) : place;
@@ -165,7 +165,7 @@ private:
             .normalized()
             .toRotationMatrix();
     }
-    /** Half of the scenes get a coincidence: concentric surfaces, ends at centres, on axes, at each other. */
+    /** Half of the scenes get a coincidence: concentric surfaces, ends at centers, on axes, at each other. */
     void degenerate(PathPose& pose) {
         const int last = static_cast<int>(pose.X_GE.size()) - 1, e = 1 + pick(last - 1);
         switch (pick(10)) {
@@ -177,7 +177,7 @@ private:
                 break;
             case 2:
                 pose.X_GE[e].p = 0.5 * (pose.X_GE[0].p + pose.X_GE[last].p);
-                break;  // chord through the centre
+                break;  // chord through the center
             case 3:
                 pose.X_GE[0].p = pose.X_GE[e] * Vec3(0, 0, 1), pose.X_GE[last].p = pose.X_GE[e] * Vec3(0, 0, -1);
                 break;

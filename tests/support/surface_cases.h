@@ -30,8 +30,8 @@ struct SurfaceCase {
     std::string name;
     std::shared_ptr<const Surface> surface;
     std::vector<Vec3> specialPoints;  ///< poles, equators, seams, joints
-    double extent = 1;                ///< random points are drawn from the cube [-extent, extent]^3 about `centre`
-    Vec3 centre = Vec3::Zero();
+    double extent = 1;                ///< random points are drawn from the cube [-extent, extent]^3 about `center`
+    Vec3 center = Vec3::Zero();
     double length = 1;                  ///< of the longest geodesic
     double differenceTolerance = 1e-5;  ///< more where curvature has kinks, so that differences are of first order
 };
@@ -42,7 +42,7 @@ struct TwinCase {
     std::shared_ptr<const Surface> implicitForm, parametricForm;
     double extent, length;
     std::vector<Vec3> specialPoints;
-    Vec3 centre = Vec3::Zero();
+    Vec3 center = Vec3::Zero();
 };
 
 /** What GoogleTest and ctest call a case. */
@@ -200,9 +200,9 @@ inline ImplicitFunctionSurface makePear() {
 inline std::vector<SurfaceCase> makeSurfaceCases() {
     std::vector<SurfaceCase> cases;
     for (const TwinCase& twin : makeTwinCases()) {
-        cases.push_back({twin.name, twin.implicitForm, twin.specialPoints, twin.extent, twin.centre, twin.length});
+        cases.push_back({twin.name, twin.implicitForm, twin.specialPoints, twin.extent, twin.center, twin.length});
         cases.push_back(
-            {"Parametric" + twin.name, twin.parametricForm, twin.specialPoints, twin.extent, twin.centre, twin.length});
+            {"Parametric" + twin.name, twin.parametricForm, twin.specialPoints, twin.extent, twin.center, twin.length});
     }
     cases.push_back({"OffsetEllipsoid",
                      std::make_shared<OffsetSurface>(std::make_shared<Ellipsoid>(Vec3(0.05, 0.03, 0.08)), 0.01),
@@ -318,7 +318,7 @@ inline std::vector<SurfaceCase> makeSurfaceCases() {
 }
 
 /** Random directions at random points off the surface by up to half its size, and at the special points. */
-inline std::vector<SurfaceLawSample> makeSamples(const Surface& surface, double extent, const Vec3& centre,
+inline std::vector<SurfaceLawSample> makeSamples(const Surface& surface, double extent, const Vec3& center,
                                                  double length, const std::vector<Vec3>& specialPoints, int numRandom,
                                                  unsigned seed) {
     std::mt19937 random(seed);
@@ -334,7 +334,7 @@ inline std::vector<SurfaceLawSample> makeSamples(const Surface& surface, double 
         samples.push_back({p, direction, length * (0.55 + 0.45 * uniform(random))});
     };
     for (int i = 0; i < numRandom; ++i) {
-        const Vec3 foot = surface.findSurfacePoint(centre + extent * draw()).p;
+        const Vec3 foot = surface.findSurfacePoint(center + extent * draw()).p;
         add(foot + 0.02 * surface.getSize() * draw());
     }
     for (const Vec3& p : specialPoints)

@@ -36,11 +36,11 @@ public:
         pose.X_GE.back() = Pose(Vec3(m_count, 0, 0));
         for (int i = 0; i < m_count; ++i) {
             const double phi = kPhase * i, w = kOmega;
-            const double centre = (m_kind == Kind::Cylinders ? 0.25 : -0.25) * getSide(i);
+            const double center = (m_kind == Kind::Cylinders ? 0.25 : -0.25) * getSide(i);
             const double a = 0.1 * std::sin(w * t + phi), b = 0.1 * std::sin(1.1 * w * t + 2 * phi);
             const Mat3 R =
                 (Eigen::AngleAxisd(a, Vec3::UnitX()) * Eigen::AngleAxisd(b, Vec3::UnitY())).toRotationMatrix();
-            const Vec3 p(i + 0.05 * std::sin(w * t + phi), centre + 0.05 * std::sin(1.3 * w * t + 2 * phi),
+            const Vec3 p(i + 0.05 * std::sin(w * t + phi), center + 0.05 * std::sin(1.3 * w * t + 2 * phi),
                          0.05 * std::sin(0.7 * w * t + 3 * phi));
             pose.X_GE[i + 1] = Pose(R, p);
         }

@@ -106,7 +106,7 @@ struct OffsetGeodesicEquations {
 };
 
 /** Foot of p on the base: Newton's method for (p - C) normal to the base, from a point C of the base.
-@return false if none was found: p lies beyond the centres of curvature */
+@return false if none was found: p lies beyond the centers of curvature */
 bool refineFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFrame& frame) {
     constexpr int kMaxIterations = 30;
     const double size = base.getSize(), enough = 1e-8 * size;  // after such a step its square is left

@@ -60,7 +60,7 @@ void Sphere::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, G
 
 void Sphere::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const {
     const double s = -A_S.dot(e_S);
-    const Vec3 D = A_S + s * e_S;  // nearest the centre
+    const Vec3 D = A_S + s * e_S;  // nearest the center
     Vec3 N = makeTangent(D, e_S);
     if (N.dot(clearance.N) < 0) N = -N;  // of the two critical points, the one on the side that is kept
     clearance.C = {m_radius * N}, clearance.N = N, clearance.lineCoordinate = s;

@@ -83,7 +83,7 @@ public:
         checkShooting();
         checkReversal();
         checkAdditivity();
-        checkNeighbours();
+        checkNeighbors();
         checkZeroLength();
         checkAnyPoint();
         checkImplicitForm();
@@ -208,7 +208,7 @@ private:
     }
 
     /** By geodesics turned about N, and by geodesics whose starts lie along B with t carried parallel. */
-    void checkNeighbours() {
+    void checkNeighbors() {
         const DarbouxFrame &P = m_frame, &Q = m_arc.Q;
         const double growth = calcGrowth();
         const double angle = m_options.differenceStep / std::sqrt(growth),

@@ -11,7 +11,7 @@ namespace {
 
 using Index = std::array<int, 3>;  ///< of a cell or a node of the lattice
 
-/** The neighbour a step along an axis away. */
+/** The neighbor a step along an axis away. */
 Index shift(Index at, int axis, int steps) {
     at[axis] += steps;
     return at;
@@ -24,12 +24,12 @@ class SurfaceNet {
 public:
     enum class Growth { Complete, OutOfBox, TooManyCells };
 
-    /** @param centre   a surface point: the middle of cell (0, 0, 0) @param step   width of the cells */
-    SurfaceNet(const Surface& surface, const Vec3& centre, double step)
+    /** @param center   a surface point: the middle of cell (0, 0, 0) @param step   width of the cells */
+    SurfaceNet(const Surface& surface, const Vec3& center, double step)
         : m_surface(surface),
-          m_centre(centre),
+          m_center(center),
           m_step(step),
-          m_hasEdge(std::isfinite(surface.calcDomainMargin({centre}))) {}
+          m_hasEdge(std::isfinite(surface.calcDomainMargin({center}))) {}
 
     /** The cells farthest out first, which soon shows whether the surface has an end.
     @param box   cells beyond it are not entered @param stopsThere   nor is anything else after such a cell */
@@ -75,25 +75,25 @@ private:
     struct Cell {
         Vec3 point;
         bool isInDomain;
-        Vec3 inside = Vec3::Constant(kNaN);  ///< beyond the domain's edge: the nearest point of a neighbour within
+        Vec3 inside = Vec3::Constant(kNaN);  ///< beyond the domain's edge: the nearest point of a neighbor within
     };
 
     Index findCell(const Vec3& p) const {
         Index cell;
-        for (int i = 0; i < 3; ++i) cell[i] = static_cast<int>(std::lround((p[i] - m_centre[i]) / m_step));
+        for (int i = 0; i < 3; ++i) cell[i] = static_cast<int>(std::lround((p[i] - m_center[i]) / m_step));
         return cell;
     }
 
     /** Whether some of the cell's points are nearer than half a cell to the box: so the box ends within the facets. */
     bool reaches(const Eigen::AlignedBox3d& box, const Index& cell) const {
-        const Vec3 middle = m_centre + m_step * Vec3(cell[0], cell[1], cell[2]);
+        const Vec3 middle = m_center + m_step * Vec3(cell[0], cell[1], cell[2]);
         constexpr double kRounding = 1e-9;
         return ((middle - box.max()).array() < (1 - kRounding) * m_step).all() &&
                ((box.min() - middle).array() < (1 - kRounding) * m_step).all();
     }
 
     Vec3 calcNode(const Index& node) const {
-        return m_centre + m_step * (Vec3(node[0], node[1], node[2]) - Vec3::Constant(0.5));
+        return m_center + m_step * (Vec3(node[0], node[1], node[2]) - Vec3::Constant(0.5));
     }
 
     double getHeight(const Index& node) {
@@ -209,13 +209,13 @@ private:
     }
 
     const Surface& m_surface;
-    Vec3 m_centre;
+    Vec3 m_center;
     double m_step;
     bool m_hasEdge;  ///< of its domain
     std::map<Index, double> m_heights;
     std::map<Index, Cell> m_cells;
     std::set<Index> m_seen;
-    std::priority_queue<std::pair<int, Index>> m_front;  ///< by distance from the centre, in cells
+    std::priority_queue<std::pair<int, Index>> m_front;  ///< by distance from the center, in cells
 };
 
 /** From beyond the domain's edge, where the surface goes on, along the surface up the margin's slope. Coordinates have

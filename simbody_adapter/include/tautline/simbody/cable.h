@@ -19,22 +19,22 @@ namespace tautline {
 class CableImpl;
 
 /** Identifies an element of a cable's path: 0 is the origin, then via points and obstacles in the order in
-which they were added, last the insertion. */
+which they were added; the last is the insertion. */
 SimTK_DEFINE_UNIQUE_INDEX_TYPE(CableElementIndex);
 
-/** What befell a contact in a time-stepping study. It was made (touchdown) or lost (lift-off), both without a jump of
-length or rate.
+/** What happened to a contact in a time-stepping study. It was made (touchdown) or lost (lift-off), both without a jump
+of length or rate.
 
-Slipped: the cable could stay where it was no longer. Its path had become a saddle of the length, or come to an end, and
-the cable snaps to the shortest path next to it, with other contacts or the same ones; events of contacts made and lost
-on the way follow. The length jumps down, from lengthBefore to lengthAfter, and the rate jumps: a force element that
-stores energy loses what it stored in the difference, and no law says where to.
+Slipped: the cable could no longer stay where it was. Its path had become a saddle of the length, or had come to an end,
+and the cable snaps to the shortest path next to it, with other contacts or the same ones; events of contacts made and
+lost on the way follow. The length jumps down, from lengthBefore to lengthAfter, and the rate jumps: a force element
+that stores energy loses what it stored in the difference, and no law says where it goes.
 
-Split: it is one arc no longer (its pressure turns inside, or a segment beside it meets the same surface again), stays
+Split: it is no longer one arc (its pressure turns inside, or a segment beside it meets the same surface again), stays
 as it is and makes the path NotMinimum.
 
-LeftHole: a ring (an obstacle with a hole) that a cable has left though it was threaded through it: the step was too
-long to see what held it. */
+LeftHole: the cable has left a ring (an obstacle with a hole) through which it was threaded: the step was too long for
+the ring to hold it. */
 struct ContactEvent {
     enum class Kind { Made, Lost, Split, LeftHole, Slipped };
     SimTK::Real time;  ///< [s]
@@ -149,8 +149,8 @@ public:
     std::shared_ptr<const Surface> getSurface(CableElementIndex element) const;
     ///@}
 
-    /** Called by the event handlers for each ContactEvent, in the thread of the study. May be set at any time but while
-    a study runs; null: nobody is told. */
+    /** Called by the event handlers for each ContactEvent, in the thread of the study. May be set at any time except
+    while a study runs; null: nobody is told. */
     void setContactListener(std::function<void(const ContactEvent&)> listener) const;
 
     /** @name State [Topology]: changing it invalidates Position */
@@ -161,12 +161,12 @@ public:
 
     /** Fixes the contact set found in this state [Position]: later poses are solved with the same contacts
     and continued from this path, until releaseContacts() or an event handler changes them. For studies
-    that move in small steps without an integrator, where a start anew at every pose costs too much. A
+    that move in small steps without an integrator, where a cold solve at every pose costs too much. A
     time-stepping study does this by itself when it initializes. */
     void fixContacts(SimTK::State& state) const;
 
-    /** Fixes the contact set of a given path, from which the next solve continues: a study may so start from a
-    path of one's own, such as one iterated from geodesics chosen by hand.
+    /** Fixes the contact set of a given path, from which the next solve continues: a study may thus start from a
+    path of your own, such as one iterated from geodesics chosen by hand.
     @param path   one contact per element; InvalidInput otherwise */
     void continueFrom(SimTK::State& state, const PathSolution& path) const;
 

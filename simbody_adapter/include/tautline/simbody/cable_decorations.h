@@ -8,7 +8,7 @@
 
 namespace tautline {
 
-/** Draws all cables of a subsystem and their obstacles, touched ones in a colour of their own:
+/** Draws all cables of a subsystem and their obstacles, touched ones in a color of their own:
 `visualizer.addDecorationGenerator(new CableDecorations(cables))`. Sphere, cylinder, ellipsoid and torus are Simbody's
 own shapes, every other surface is a mesh (calcSurfaceMesh()), laid when it is first drawn. */
 class CableDecorations : public SimTK::DecorationGenerator {
@@ -26,7 +26,7 @@ public:
     their characteristic lengths, of cylinders in radii, positive; 3 by default */
     CableDecorations& setExtent(SimTK::Real sizes);
 
-    /** Realizes the state to Position where it is not. */
+    /** Realizes the state to Position if it is not yet. */
     void generateDecorations(const SimTK::State& state, SimTK::Array_<SimTK::DecorativeGeometry>& geometry) override;
 
 private:

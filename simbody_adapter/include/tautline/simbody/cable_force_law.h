@@ -8,7 +8,7 @@
 
 namespace tautline {
 
-/** How tense a cable is: derive from it for a tension law of your own and hand it to a CableForce. A law
+/** How tense a cable is: derive from it to write a tension law and hand it to a CableForce. A law
 that keeps variables of its own allocates them in the force subsystem in realizeTopology(). */
 class CableForceLaw {
 public:
@@ -28,11 +28,11 @@ public:
     /** Allocate discrete variables and z's here, with the methods of `forces`. */
     virtual void realizeTopology(SimTK::State&, const SimTK::Subsystem& /*forces*/) {}
 
-    /** For methods that read or change variables of one's own. @throws Simbody's stage error unless the System has been
-    realized to Topology in this State */
+    /** For methods that read or change the law's own variables. @throws Simbody's stage error unless the System has
+    been realized to Topology in this State */
     static void ensureTopology(const SimTK::State& state, const char* method);
 
-    /** Set the derivatives of one's own z's: forces.updZDot(state)[...]. Stage: Dynamics. */
+    /** Set the derivatives of the law's own z's: forces.updZDot(state)[...]. Stage: Dynamics. */
     virtual void realizeDerivatives(const SimTK::State&, const SimTK::Subsystem& /*forces*/) const {}
 
 private:

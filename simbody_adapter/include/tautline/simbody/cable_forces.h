@@ -51,7 +51,7 @@ public:
     SimTK::Real getDamping() const;
 };
 
-/** A tension that somebody else decides. No potential energy. */
+/** A tension that is prescribed, as a number or a function. No potential energy. */
 class PrescribedTensionForce : public CableForce {
 public:
     PrescribedTensionForce() = default;

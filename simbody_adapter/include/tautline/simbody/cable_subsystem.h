@@ -37,7 +37,7 @@ public:
     /** Judges the paths of all cables in an accepted step of a study and counts them in CableStatistics. Nothing in
     Simbody 3.7 tells a subsystem of accepted steps: call it wherever the integrator returns, with
     setReturnEveryInternalStep(true) (and under a TimeStepper setReportAllSignificantStates(true)).
-    Realizes the state to Position where it is not. */
+    Realizes the state to Position if it is not yet. */
     void countStep(const SimTK::State& state) const;
 
 private:

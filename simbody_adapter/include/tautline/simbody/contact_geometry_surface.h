@@ -11,12 +11,12 @@ namespace tautline {
 class HeightMapPatch;
 
 /** Any smooth SimTK::ContactGeometry (isSmooth()) as a surface that a cable can wrap. SimTK's implicit
-function is positive inside; its sign is turned here and nowhere else.
+function is positive inside; its sign is changed here and nowhere else.
 
 A SmoothHeightMap is a sheet over a rectangle: what lies below it is inside, what lies beside the rectangle is not,
 wherever in height. Beyond its edges iterates go on over a smooth continuation, and an answer that lies there has the
-status LeftDomain. Its bicubic surface is asked directly, with a hint of each call's
-own, since SmoothHeightMap shares one between threads. */
+status LeftDomain. Its bicubic surface is evaluated directly, with a patch hint of
+its own for each call, since SmoothHeightMap shares one between threads. */
 class ContactGeometrySurface final : public ImplicitSurface {
 public:
     /** @param geometry   smooth; copied

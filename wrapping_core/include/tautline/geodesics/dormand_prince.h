@@ -31,11 +31,12 @@ struct DormandPrince853 {
                        Eigen::Matrix<double, n, 1>& yNew);
 };
 
-/** The pair of order 5(4): half the work of a step, where few digits are asked. */
+/** The pair of order 5(4): half the work of a step, if few digits are asked for. */
 struct DormandPrince54 {
     static double calcStepRatio(double errorRatio) { return std::pow(errorRatio, 0.2); }
 
-    /** The angle on a sphere is 3.8 accuracy^(1/5), 0.6 for 1e-4 and 0.9 for 1e-3; less, and no power, serves as well.
+    /** The angle on a sphere is 3.8 accuracy^(1/5), 0.6 for 1e-4 and 0.9 for 1e-3; a smaller one, without a power,
+     * serves as well.
      */
     static double calcFirstAngle(double accuracy) { return std::min(4 * std::sqrt(std::sqrt(accuracy)), 1.0); }
 

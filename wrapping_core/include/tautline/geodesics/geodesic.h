@@ -31,7 +31,7 @@ struct Geodesic {
     double r = 0, rDot = 1;          ///< dbeta_Q/dtheta [m] and its arc derivative
     int steps = 0;                   ///< accepted integration steps; 0 for closed forms, -1 if it gave up
     bool converged = true;           ///< false: the integrator gave up, Q is where it stopped
-    bool hasConjugatePoint = false;  ///< r has a zero inside: no shortest curve (where: geodesic_events.h)
+    bool hasConjugatePoint = false;  ///< r has a zero inside: not a shortest curve (where: geodesic_events.h)
     double maxKappaN = -kInfinity;   ///< largest kappaN met at the integrator's steps
 };
 

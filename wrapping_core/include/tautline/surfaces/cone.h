@@ -6,7 +6,7 @@
 namespace tautline {
 
 /** Circular cone about the z axis of S, apex at the origin, opening along +z without end. It is developable:
-geodesics are straight lines on the unrolled cone, in closed form. The apex is no part of the domain. */
+geodesics are straight lines on the unrolled cone, in closed form. The apex is not part of the domain. */
 class Cone final : public ImplicitShape<Cone> {
 public:
     /** @param halfAngle    between axis and surface [rad], in (0, pi/2); InvalidInput otherwise

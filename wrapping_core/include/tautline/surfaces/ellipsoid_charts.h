@@ -35,7 +35,7 @@ public:
                 {-cv * acu, -cv * bsu, 0},    {sv * asu, -sv * bcu, 0}, {-cv * acu, -cv * bsu, -c * sv}};
     }
 
-    /** Exact on the ellipsoid; elsewhere those of the point on the ray from the centre. */
+    /** Exact on the ellipsoid; elsewhere those of the point on the ray from the center. */
     Vec2 calcNearbyParameters(const Vec3& p, int chart) const {
         const Vec3 q = p.cwiseQuotient(m_semiAxes);
         const double q0 = q[axis(chart, 0)], q1 = q[axis(chart, 1)], q2 = q[axis(chart, 2)];

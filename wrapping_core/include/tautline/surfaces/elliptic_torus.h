@@ -6,11 +6,11 @@
 
 namespace tautline {
 
-/** Torus about the z axis of S whose tube section is an ellipse (thesis Sec. 8.3): its centre runs on a circle
+/** Torus about the z axis of S whose tube section is an ellipse (thesis Sec. 8.3): its center runs on a circle
 of radius R in the plane z = 0, its semi-axes lie along the radius and along z. */
 class EllipticTorus final : public ImplicitShape<EllipticTorus> {
 public:
-    /** @param ringRadius      R, from the axis to the tube's centre [m]
+    /** @param ringRadius      R, from the axis to the tube's center [m]
     @param radialSemiAxis   of the section [m]; 0 < radialSemiAxis < ringRadius, InvalidInput otherwise
     @param axialSemiAxis    of the section along z [m], positive */
     EllipticTorus(double ringRadius, double radialSemiAxis, double axialSemiAxis);

@@ -13,7 +13,7 @@ namespace tautline {
 /** f(p) = 0 from functions; f > 0 outside. Derivatives that are not given come from central differences of sixth order,
 with steps of 1% of the size for first and 3% for second derivatives: good to some 1e-12 for functions that are
 smooth on the scale of the size, at 19 evaluations for a gradient, 55 for gradient and Hessian. `makeImplicitSurface`
-has exact ones from one formula. */
+derives exact ones from one formula. */
 class ImplicitFunctionSurface final : public ImplicitShape<ImplicitFunctionSurface> {
 public:
     using ValueFunction = std::function<double(const Vec3& p_S)>;
@@ -37,7 +37,7 @@ public:
         m_isConvex = isConvex;
         return *this;
     }
-    /** Without the Hessian where that costs. */
+    /** Without the Hessian, if that has to come from differences. */
     double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
     ImplicitValue calcImplicit(const Vec3& p) const;
 

@@ -15,8 +15,8 @@ struct GeodesicPlace {
     SurfacePoint point;
 };
 
-/** The first conjugate point, where r(s) = 0: from there on the geodesic is no shortest curve any more (Jacobi). None
-before the end, or where the geodesic cannot be shot to its end: nothing. */
+/** The first conjugate point, where r(s) = 0: beyond it the geodesic is no longer a shortest curve (Jacobi). Nothing
+if there is none before the end, or if the geodesic cannot be shot to its end. */
 std::optional<GeodesicPlace> findConjugatePoint(const Surface& surface, const GeodesicStart& start,
                                                 const GeodesicOptions& options = {});
 

@@ -134,7 +134,7 @@ public:
     double calcFormHeight(const Vec3& p_S, Vec3& N_S) const {
         const auto value = derived().calcImplicit(p_S);
         const double g = value.gradient.norm();
-        if (!(g > 0)) {  // the centre of a quadric: as deep as can be, any direction out
+        if (!(g > 0)) {  // the center of a quadric: as deep as a point can be; any direction leads out
             N_S = Vec3::UnitX();
             return -getSize();
         }

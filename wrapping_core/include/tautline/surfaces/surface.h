@@ -32,7 +32,7 @@ struct LineClearance {
 
 Implement it through ImplicitSurface (a function f(p) = 0) or ParametricSurface (x(u, v)), which deduce
 everything below; override with a closed form where one exists. All methods are const and may be called
-from many threads at once. Lengths in metres. No method throws for finite input. */
+from many threads at once. Lengths in meters. No method throws for finite input. */
 class Surface {
 public:
     virtual ~Surface() = default;

@@ -36,7 +36,7 @@ struct SurfaceLawOptions {
  7. Reversed: shot back from the end, or over the negative length, it returns to its start.
  8. Additive: two halves make the whole, Jacobi fields included.
  9. Jacobi fields have the Wronskian a r' - a' r = 1.
-10. Jacobi fields are the differences of neighbouring geodesics.
+10. Jacobi fields are the differences of neighboring geodesics.
 11. Zero length: end = start, a = 1, r = 0.
 12. Any point in space has a finite height and a finite surface point.
 13. Of an implicit form, gradient and Hessian are differences of f and of the gradient, the Hessian symmetric; of a

@@ -9,7 +9,7 @@ namespace tautline {
 /** Ring torus about the z axis of S: a tube of radius r around a circle of radius R > r in the plane z = 0. */
 class Torus final : public ImplicitShape<Torus> {
 public:
-    /** @param ringRadius   from the axis to the tube's centre [m]
+    /** @param ringRadius   from the axis to the tube's center [m]
     @param tubeRadius   [m]; 0 < tubeRadius < ringRadius, InvalidInput otherwise */
     Torus(double ringRadius, double tubeRadius);
 
@@ -34,7 +34,7 @@ extern template class ImplicitShape<Torus>;
 /** Ring torus about the z axis of S in ring angle u and tube angle v (thesis Eqn. 3.69). */
 class ParametricTorus final : public ParametricTwin<ParametricTorus, Torus> {
 public:
-    /** @param ringRadius   from the axis to the tube's centre [m]
+    /** @param ringRadius   from the axis to the tube's center [m]
     @param tubeRadius   [m]; 0 < tubeRadius < ringRadius, InvalidInput otherwise */
     ParametricTorus(double ringRadius, double tubeRadius) : ParametricTwin(Torus(ringRadius, tubeRadius)) {}
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/** The equations that the two tori share. R: from the z axis to the tube's centre; a, b: semi-axes of the tube's
-section along the radius and along z; all in metres. */
+/** The equations that the two tori share. R: from the z axis to the tube's center; a, b: semi-axes of the tube's
+section along the radius and along z; all in meters. */
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +11,8 @@ section along the radius and along z; all in metres. */
 
 namespace tautline {
 
-/** f = c/2 ((rho - R)^2/a^2 + z^2/b^2 - 1) with c the lesser semi-axis and rho the distance from the z axis: smooth but
-on that axis, which is no part of the surface; the gradient there is that of a point beside it. */
+/** f = c/2 ((rho - R)^2/a^2 + z^2/b^2 - 1) with c the lesser semi-axis and rho the distance from the z axis: smooth
+except on that axis, which is not part of the surface; the gradient there is that of a point beside it. */
 inline ImplicitValue calcTorusForm(const Vec3& p, double R, double a, double b) {
     const double c = std::min(a, b), ra = c / (a * a), zb = c / (b * b);
     const double tiny = 1e-12 * R, rhoTrue = std::sqrt(p.x() * p.x() + p.y() * p.y());
@@ -37,7 +37,7 @@ inline ParametricValue calcTorusPoint(const Vec2& uv, double R, double a, double
             {-rho * cu, -rho * su, 0},    {a * sv * su, -a * sv * cu, 0}, {-a * cv * cu, -a * cv * su, -b * sv}};
 }
 
-/** (u, v) of a point of the surface, or of one on the same ray from the tube's centre as the section is scaled. */
+/** (u, v) of a point of the surface, or of one on the same ray from the tube's center as the section is scaled. */
 inline Vec2 calcTorusParameters(const Vec3& p, double R, double a, double b) {
     return {std::atan2(p.y(), p.x()), std::atan2(p.z() / b, (std::hypot(p.x(), p.y()) - R) / a)};
 }
