@@ -53,7 +53,7 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const Surface> makeScaledSurface(std::shared_ptr<const Surface> base, const LinearMap& map) {
+std::shared_ptr<const Surface> makeScaledSurface(const std::shared_ptr<const Surface>& base, const LinearMap& map) {
     require(base != nullptr, "scaled surface: needs a base surface");
     const SurfacePoint point = base->findSurfacePoint(Vec3::Constant(base->getSize()));
     ImplicitValue implicitValue;

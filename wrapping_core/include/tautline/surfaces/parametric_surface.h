@@ -245,7 +245,7 @@ protected:
         // Rounding of x(u, v) is far below this, and a mistaken (u, v) almost surely far above.
         if (!point.p.allFinite() || (s.x - point.p).norm() <= 1e-9 * (getSize() + s.x.norm()))
             return {s.x, point.uv, point.chart};
-        const SurfacePoint found = findSurfacePoint(point.p);
+        SurfacePoint found = findSurfacePoint(point.p);
         s = derived().calcParametric(found.uv, found.chart);
         return found;
     }

@@ -88,6 +88,6 @@ public:
 
 /** Any surface under a linear map, a user's own included, in the form that it has (the implicit one if both).
 @throws InvalidInput if base is null or has neither form, and as LinearMap */
-std::shared_ptr<const Surface> makeScaledSurface(std::shared_ptr<const Surface> base, const LinearMap& map);
+std::shared_ptr<const Surface> makeScaledSurface(const std::shared_ptr<const Surface>& base, const LinearMap& map);
 
 }  // namespace tautline
