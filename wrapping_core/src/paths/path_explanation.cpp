@@ -188,8 +188,7 @@ std::string explainLeftHole(const PathProblem& problem, const PathSolution& path
 }
 
 std::string explainSolved(const PathProblem& problem, const PathSolution& path) {
-    const std::string minimum = "a local minimum", left = explainLeftHole(problem, path);
-    if (!left.empty()) return minimum + ", but " + left;
+    const std::string minimum = "a local minimum";
     return path.followsHints() ? minimum : minimum + ", but " + describe(path.deviation, problem);
 }
 

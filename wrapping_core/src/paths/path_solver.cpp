@@ -154,6 +154,7 @@ void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool i
     scene.forEachObstacle([&](int e) {
         if (path.contacts[e].isSwitchedOff) path.status = PathStatus::EndInside;
     });
+    if (path.status == PathStatus::Solved && hasLeftAnyHole(path)) path.status = PathStatus::NotMinimum;
     if (isFound) return;
     const PathVerification verification = verifyPath(problem, pose, path);
     if (verification.condition == PathVerification::Condition::OutsideDomain)

@@ -121,6 +121,11 @@ void updatePassages(const PosedProblem& scene, bool isConverged, PathSolution& p
     });
 }
 
+bool hasLeftAnyHole(const PathSolution& path) {
+    return std::any_of(path.contacts.begin(), path.contacts.end(),
+                       [](const ObstacleContact& contact) { return contact.hasLeftHole; });
+}
+
 void giveUpLostHoles(PathSolution& path) {
     for (ObstacleContact& contact : path.contacts)
         if (contact.hasLeftHole) contact.passage = HolePassage();

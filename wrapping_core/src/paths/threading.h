@@ -29,6 +29,9 @@ bool hasRightPassages(const PosedProblem& scene, const PassageRule& rule, const 
 path that did not converge, or has left the hole, are no course to keep: the ones before them stay. */
 void updatePassages(const PosedProblem& scene, bool isConverged, PathSolution& path);
 
+/** Whether the path has left a ring that it was threaded through: no string came there on its way. */
+bool hasLeftAnyHole(const PathSolution& path);
+
 /** Where no search led through a hole again: later solves no longer look for the way, but still say that it was left.
  */
 void giveUpLostHoles(PathSolution& path);

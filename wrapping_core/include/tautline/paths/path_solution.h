@@ -9,8 +9,9 @@ namespace tautline {
 
 /** How a solve ended. */
 enum class PathStatus {
-    Solved,        ///< max |eps| <= tolerance and all conditions of PathVerification hold
-    NotMinimum,    ///< max |eps| <= tolerance, but the path is not a local minimum (pressure, tangent, conjugate point)
+    Solved,      ///< max |eps| <= tolerance and all conditions of PathVerification hold
+    NotMinimum,  ///< max |eps| <= tolerance, but the path is not a local minimum (pressure, tangent, conjugate point),
+                 ///< or not one that a string can have come to: it has left a ring that it went through
     LeftDomain,    ///< a contact lies outside its surface's domain
     EndInside,     ///< a fixed point lies deeper than 1e-7 sizes below the surface of an obstacle of its strand (nearer
                    ///< ones count as lying on it); that obstacle is switched off
