@@ -199,14 +199,13 @@ bool Cable::isDisabled(const State& state) const {
 }
 
 void Cable::fixContacts(State& state) const {
-    const PathSolution path = get().calcSettledPath(state);
-    get().keepContacts(state, path, PathPose(get().getPose(state)));
+    get().keepContacts(state, get().calcSettledPath(state));
 }
 
 void Cable::continueFrom(State& state, const PathSolution& path) const {
     require(static_cast<int>(path.contacts.size()) == getNumElements(), "cable '", getName(), "': a path with ",
             path.contacts.size(), " contacts for ", getNumElements(), " elements");
-    get().keepContacts(state, path, PathPose());
+    get().keepContacts(state, {path, PathPose(), state.getTime()});
 }
 
 void Cable::releaseContacts(State& state) const {

@@ -23,6 +23,21 @@ void CableCounters::countStep(bool isDegraded, double pathError) {
         if (m_largestPathError.compare_exchange_weak(largest, pathError)) break;
 }
 
+void CableCounters::countEvent(PathEvent::Kind kind) {
+    switch (kind) {
+        case PathEvent::Kind::Touched:
+        case PathEvent::Kind::Lifted:
+            ++m_contactEvents;
+            return;
+        case PathEvent::Kind::Slipped:
+            ++m_slips;
+            return;
+        case PathEvent::Kind::LeftHole:
+            ++m_holesLeft;
+            return;
+    }
+}
+
 CableStatistics CableCounters::getStatistics() const {
     CableStatistics result;
     result.numSolves = m_solves;

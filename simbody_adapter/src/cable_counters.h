@@ -3,7 +3,7 @@
 #include <atomic>
 #include <chrono>
 
-#include "tautline/paths/path_solution.h"
+#include "tautline/paths/path_tracker.h"
 #include "tautline/simbody/cable.h"
 
 namespace tautline {
@@ -14,9 +14,7 @@ public:
     void countSolve(const PathSolution& path, std::chrono::nanoseconds elapsed);
     /** @param pathError   of the path at the step's end */
     void countStep(bool isDegraded, double pathError);
-    void countContactEvent() { ++m_contactEvents; }
-    void countSlip() { ++m_slips; }
-    void countHoleLeft() { ++m_holesLeft; }
+    void countEvent(PathEvent::Kind kind);
 
     CableStatistics getStatistics() const;
     void reset();

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cable_impl.h"
 
-#include <algorithm>
 #include <chrono>
-#include <limits>
 #include <utility>
 
 #include "cable_subsystem_impl.h"
 #include "contact_event_handler.h"
 #include "tautline/error.h"
-#include "tautline/paths/contact_settling.h"
-#include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_explanation.h"
-#include "tautline/paths/path_following.h"
 #include "tautline/paths/path_kinematics.h"
-#include "tautline/paths/path_stability.h"
-#include "tautline/paths/path_verification.h"
-#include "tautline/paths/single_contact.h"
 #include "tautline/simbody/conversions.h"
 
 namespace tautline {
@@ -28,18 +20,18 @@ using SimTK::State;
 
 namespace {
 
-constexpr Real kBetweenEvents = -1e-6;  ///< arcs just below zero, in sizes, which the event finder watches
-
-/** Whether a path may be followed from there. */
-bool isGoodStart(const CablePath& start) {
-    return !start.pose.X_GE.empty() && start.solution.status != PathStatus::NotConverged &&
-           start.solution.status != PathStatus::NotMinimum;
-}
-
-/** The answer for a pose that is not finite: nothing to draw, nothing that pulls. */
-void makeEmptyPath(int numElements, PathSolution& path) {
-    path = PathSolution();
-    path.contacts.assign(numElements, ObstacleContact());
+ContactEvent::Kind toContactEventKind(PathEvent::Kind kind) {
+    switch (kind) {
+        case PathEvent::Kind::Touched:
+            return ContactEvent::Kind::Made;
+        case PathEvent::Kind::Lifted:
+            return ContactEvent::Kind::Lost;
+        case PathEvent::Kind::LeftHole:
+            return ContactEvent::Kind::LeftHole;
+        case PathEvent::Kind::Slipped:
+            break;
+    }
+    return ContactEvent::Kind::Slipped;
 }
 
 }  // namespace
@@ -95,13 +87,32 @@ void CableImpl::realizeTopology(State& state) {
 }
 
 void CableImpl::realizePosition(const State& state) const {
-    const CableMode& mode = m_state.getMode(state);
-    if (mode.isDisabled) return;
+    if (isDisabled(state)) return;
     CablePath& path = m_state.updPath(state);
     m_elements.calcPose(state, path.pose);
-    solve(m_state.getStart(state), mode.keepsContacts, m_state.updWorkspace(state), path);
+    path.time = state.getTime();
+    solve(state, path);
     calcUnitForces(path.solution, path.pose, path.forces);
     m_state.markPathRealized(state);
+}
+
+/** Only a path that is continued asks how it moved before. */
+void CableImpl::realizeVelocity(const State& state) const {
+    const CableMode& mode = m_state.getMode(state);
+    if (!mode.isDisabled && mode.keepsContacts) realizeMotion(state);
+}
+
+void CableImpl::realizeMotion(const State& state) const {
+    if (m_state.isMotionRealized(state)) return;
+    PathMotion& motion = m_state.updMotion(state);
+    motion.time = state.getTime();
+    m_elements.calcVelocities(state, motion.V_GE);
+    m_state.markMotionRealized(state);
+}
+
+const PathMotion& CableImpl::getMotion(const State& state) const {
+    realizeMotion(state);
+    return m_state.getMotion(state);
 }
 
 void CableImpl::setDisabled(State& state, bool isDisabled) const {
@@ -121,11 +132,8 @@ const PathSolution& CableImpl::getPath(const State& state, const char* method) c
 Real CableImpl::getLengthRate(const State& state) const {
     m_cables.ensureStage(state, Stage::Velocity, "Cable::getLengthRate()");
     const PathSolution& path = getPath(state, "Cable::getLengthRate()");
-    if (!m_state.isRateRealized(state)) {
-        CableWorkspace& workspace = m_state.updWorkspace(state);
-        m_elements.calcVelocities(state, workspace.velocities);
-        m_state.setRate(state, calcLengthRate(path, getPose(state), workspace.velocities));
-    }
+    if (!m_state.isRateRealized(state))
+        m_state.setRate(state, calcLengthRate(path, getPose(state), getMotion(state).V_GE));
     return m_state.getRate(state);
 }
 
@@ -144,13 +152,13 @@ Real CableImpl::getLengthAccelerationBias(const State& state) const {
 E that turning alone gives it. On the verge of instability, where the forces' rates are without bound, that alone. */
 Real CableImpl::calcLengthAccelerationBias(const State& state, const CablePath& path) const {
     CableWorkspace& workspace = m_state.updWorkspace(state);
-    m_elements.calcVelocities(state, workspace.velocities);
+    const std::vector<SpatialVelocity>& V_GE = getMotion(state).V_GE;
     workspace.sensitivity.setPath(m_problem, path.pose, path.solution);
-    workspace.sensitivity.calcVariation(workspace.velocities, workspace.variation);
+    workspace.sensitivity.calcVariation(V_GE, workspace.variation);
     Real bias = 0;
     for (int e = 0; e < m_elements.size(); ++e) {
         const SpatialForce &F = path.forces[e], &FRate = workspace.variation.forceRate[e];
-        const SpatialVelocity& V = workspace.velocities[e];
+        const SpatialVelocity& V = V_GE[e];
         const Vec3 centripetal = m_elements.calcCentripetalAcceleration(state, e, V.w);
         bias -= FRate.force.dot(V.v) + FRate.moment.dot(V.w) + F.force.dot(centripetal);
     }
@@ -166,25 +174,13 @@ Real CableImpl::calcWitness(const State& state, CableElementIndex obstacle) cons
 Real CableImpl::calcSplitWitness(const State& state, CableElementIndex obstacle) const {
     const PathSolution& path = getPath(state, "Cable::calcSplitWitness()");
     if (!m_state.getMode(state).keepsContacts) return 1;
-    return calcSingleContactWitness(m_problem, getPose(state), path, obstacle);
+    return tautline::calcSplitWitness(m_problem, getPose(state), path, obstacle);
 }
 
-/** Where a path that is a saddle could not be left, it is tried again whenever its instability has grown tenfold. */
 Real CableImpl::calcStabilityWitness(const State& state) const {
-    constexpr Real kTiny = std::numeric_limits<Real>::min(), kGrowth = 10;
-    const PathSolution& path = getPath(state, "StabilityEventHandler::getValue()");
+    getPath(state, "StabilityEventHandler::getValue()");
     if (!m_state.getMode(state).keepsContacts) return 1;
-    if (path.status == PathStatus::NotConverged) return -1;
-    const auto calcMargin = [&](const CablePath& at) {
-        return calcPathStability(m_problem, at.pose, at.solution).margin;
-    };
-    const CablePath& start = m_state.getStart(state);
-    Real margin = calcMargin(m_state.getPath(state));
-    if (start.solution.status == PathStatus::NotMinimum && !start.pose.X_GE.empty())
-        margin -= kGrowth * std::min<Real>(calcMargin(start), kSlipMargin);
-    else
-        margin -= kSlipMargin;
-    return margin == 0 ? -kTiny : margin;
+    return PathTracker::calcStabilityWitness(m_problem, m_state.getStart(state), m_state.getPath(state));
 }
 
 void CableImpl::reportSplit(const State& state, CableElementIndex obstacle) const {
@@ -210,50 +206,33 @@ void CableImpl::addMobilityForces(const State& state, Real tension, SimTK::Vecto
     m_elements.addMobilityForces(state, getElementForces(state, method), tension, mobilityForces);
 }
 
-void CableImpl::solve(const CablePath& start, bool keepsContacts, CableWorkspace& workspace, CablePath& found) const {
-    PathSolution& path = found.solution;
-    if (!found.pose.isFinite()) return makeEmptyPath(m_elements.size(), path);
+void CableImpl::solve(const State& state, CablePath& path) const {
     using Clock = std::chrono::steady_clock;
+    PathTracker& tracker = m_state.updWorkspace(state).tracker;
     const Clock::time_point begin = Clock::now();
-    if (keepsContacts) {
-        solveKept(start, workspace, found);
-    } else {
-        path.contacts.clear();
-        workspace.solver.solve(m_problem, found.pose, path);
-    }
-    m_counters.countSolve(path, Clock::now() - begin);
+    if (m_state.getMode(state).keepsContacts)
+        tracker.track(m_problem, m_state.getStart(state), m_state.getStartMotion(state), path);
+    else
+        tracker.solve(m_problem, path);
+    if (path.pose.isFinite()) m_counters.countSolve(path.solution, Clock::now() - begin);
 }
 
-/** Where Newton's method comes to no path in one step, or to another one, a saddle, the path is followed there. */
-void CableImpl::solveKept(const CablePath& start, CableWorkspace& workspace, CablePath& path) const {
-    PathSolution& solution = path.solution;
-    solution = start.solution;
-    workspace.solver.solveKeepingContacts(m_problem, path.pose, solution);
-    if (isHoldingPath(m_problem, path.pose, solution) || hasSwallowedEnd(solution)) return;
-    PathSolution followed = start.solution;
-    if (isGoodStart(start) && followPath(workspace.solver, m_problem, start.pose, path.pose, followed))
-        solution = followed;
-    else if (solution.status == PathStatus::Solved)
-        solution.status = PathStatus::NotMinimum;
-}
-
-PathSolution CableImpl::calcSettledPath(const State& state) const {
-    PathSolution path = getPath(state, "Cable::fixContacts()");
-    if (path.status == PathStatus::NotConverged) return path;
-    settleContacts(m_state.updWorkspace(state).solver, m_problem, getPose(state), path);
+TrackedPath CableImpl::calcSettledPath(const State& state) const {
+    getPath(state, "Cable::fixContacts()");
+    TrackedPath path = m_state.getPath(state);
+    m_state.updWorkspace(state).tracker.settle(m_problem, path);
     return path;
 }
 
-void CableImpl::keepContacts(State& state, const PathSolution& path, const PathPose& pose) const {
+void CableImpl::keepContacts(State& state, const TrackedPath& path) const {
     CableMode mode = m_state.getMode(state);
     mode.keepsContacts = true;
     m_state.setMode(state, mode);
-    setStart(state, path, pose);
+    setStart(state, path);
 }
 
-void CableImpl::setStart(State& state, const PathSolution& path, const PathPose& pose) const {
-    CablePath& start = m_state.updStart(state);
-    start.solution = path, start.pose = pose;
+void CableImpl::setStart(State& state, const TrackedPath& path) const {
+    static_cast<TrackedPath&>(m_state.updStart(state)) = path;
 }
 
 void CableImpl::releaseContacts(State& state) const {
@@ -266,75 +245,39 @@ void CableImpl::handleContactEvent(State& state) const {
     const CableMode& mode = m_state.getMode(state);
     if (mode.isDisabled || !mode.keepsContacts) return;
     m_cables.getSystem().realize(state, Stage::Velocity);
-    const PathSolution before = getPath(state, "ContactEventHandler::handleEvent()");
-    const PathPose pose = getPose(state);
-    CableWorkspace& workspace = m_state.updWorkspace(state);
-    m_elements.calcVelocities(state, workspace.velocities);
-    const PathSolution start = m_state.getStart(state).solution;
-    PathSolution after = before;
-    if (before.status == PathStatus::NotConverged) after.contacts = start.contacts;
-    for (int e = 0; e < m_elements.size(); ++e) {
-        after.contacts[e].isSwitchedOff = before.contacts[e].isSwitchedOff;
-        // What the step began from knows how the cable went through rings.
-        if (!start.contacts[e].isSwitchedOff) after.contacts[e].passage = start.contacts[e].passage;
-    }
-    const int slippedAt = settleContacts(workspace.solver, m_problem, pose, after);
-    setStart(state, after, pose);
-    report(state, start, before, after, pose, slippedAt);
+    getPath(state, "ContactEventHandler::handleEvent()");
+    const TrackedPath before = m_state.getPath(state);
+    const PathMotion motion = getMotion(state);
+    TrackedPath after = before;
+    const std::vector<PathEvent> events =
+        m_state.updWorkspace(state).tracker.resolveEvent(m_problem, m_state.getStart(state), after);
+    setStart(state, after);
+    m_state.updStartMotion(state) = motion;
+    report(events, before.solution, after, motion);
 }
 
-/** @param state   whose velocities are in its workspace */
-void CableImpl::report(const State& state, const PathSolution& start, const PathSolution& before,
-                       const PathSolution& after, const PathPose& pose, int slippedAt) const {
-    const CableWorkspace& workspace = m_state.updWorkspace(state);
-    const Real rateBefore = calcLengthRate(before, pose, workspace.velocities);
-    const Real rateAfter = calcLengthRate(after, pose, workspace.velocities);
-    using Kind = ContactEvent::Kind;
-    const auto tell = [&](CableElementIndex e, Kind kind) {
-        if (m_listener)
-            m_listener({state.getTime(), m_index, e, kind, before.length, after.length, rateBefore, rateAfter});
-    };
-    if (slippedAt >= 0) {
-        m_counters.countSlip();
-        tell(CableElementIndex(slippedAt), Kind::Slipped);
-    }
-    for (CableElementIndex e(0); e < m_elements.size(); ++e) {
-        if (!m_elements[e].surface) continue;
-        if (after.contacts[e].hasLeftHole && !start.contacts[e].hasLeftHole) {
-            m_counters.countHoleLeft();
-            tell(e, Kind::LeftHole);
-        }
-        if (before.contacts[e].isTouched == after.contacts[e].isTouched) continue;
-        m_counters.countContactEvent();
-        tell(e, after.contacts[e].isTouched ? Kind::Made : Kind::Lost);
+void CableImpl::report(const std::vector<PathEvent>& events, const PathSolution& before, const TrackedPath& after,
+                       const PathMotion& motion) const {
+    const Real rateBefore = calcLengthRate(before, after.pose, motion.V_GE);
+    const Real rateAfter = calcLengthRate(after.solution, after.pose, motion.V_GE);
+    for (const PathEvent& event : events) {
+        m_counters.countEvent(event.kind);
+        if (!m_listener) continue;
+        m_listener({after.time, m_index, CableElementIndex(event.element), toContactEventKind(event.kind),
+                    before.length, after.solution.length, rateBefore, rateAfter});
     }
 }
 
 PathStatus CableImpl::calcStatus(const State& state) const {
     const PathSolution& path = getPath(state, "Cable::calcStatus()");
-    if (path.status != PathStatus::Solved || !m_state.getMode(state).keepsContacts) return path.status;
-    for (int e = 0; e < m_elements.size(); ++e)
-        if (m_elements[e].surface && path.contacts[e].isSwitchedOff) return PathStatus::EndInside;
-    for (const ObstacleContact& contact : path.contacts)
-        if (contact.hasLeftHole) return PathStatus::NotMinimum;
-    using Condition = PathVerification::Condition;
-    switch (verifyPath(m_problem, getPose(state), path, kBetweenEvents).condition) {
-        case Condition::None:
-            return PathStatus::Solved;
-        case Condition::OutsideDomain:
-            return PathStatus::LeftDomain;
-        case Condition::Unstable:
-            if (calcPathStability(m_problem, getPose(state), path).holds()) return PathStatus::Solved;
-            [[fallthrough]];
-        default:
-            return PathStatus::NotMinimum;
-    }
+    if (!m_state.getMode(state).keepsContacts) return path.status;
+    return PathTracker::calcStatus(m_problem, m_state.getPath(state));
 }
 
 std::string CableImpl::explainStatus(const State& state) const {
-    PathSolution path = getPath(state, "Cable::explainStatus()");
-    path.status = calcStatus(state);
-    return tautline::explainStatus(m_problem, getPose(state), path, kBetweenEvents);
+    const PathSolution& path = getPath(state, "Cable::explainStatus()");
+    if (!m_state.getMode(state).keepsContacts) return tautline::explainStatus(m_problem, getPose(state), path);
+    return PathTracker::explainStatus(m_problem, m_state.getPath(state));
 }
 
 void CableImpl::countStep(const State& state) const {

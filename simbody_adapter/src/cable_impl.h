@@ -36,6 +36,7 @@ public:
 
     void realizeTopology(SimTK::State& state);
     void realizePosition(const SimTK::State& state) const;
+    void realizeVelocity(const SimTK::State& state) const;
 
     const CablePathState& getPathState() const { return m_state; }
     bool isDisabled(const SimTK::State& state) const { return m_state.getMode(state).isDisabled; }
@@ -60,9 +61,8 @@ public:
                            const char* method) const;
 
     /** The path of this state with all contacts settled, as a study starts from it. */
-    PathSolution calcSettledPath(const SimTK::State& state) const;
-    /** @param pose   for which the path was solved; empty: not known */
-    void keepContacts(SimTK::State& state, const PathSolution& path, const PathPose& pose) const;
+    TrackedPath calcSettledPath(const SimTK::State& state) const;
+    void keepContacts(SimTK::State& state, const TrackedPath& path) const;
     void releaseContacts(SimTK::State& state) const;
     void handleContactEvent(SimTK::State& state) const;
 
@@ -76,11 +76,13 @@ public:
 
 private:
     SimTK::Real calcLengthAccelerationBias(const SimTK::State& state, const CablePath& path) const;
-    void solve(const CablePath& start, bool keepsContacts, CableWorkspace& workspace, CablePath& path) const;
-    void solveKept(const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
-    void setStart(SimTK::State& state, const PathSolution& path, const PathPose& pose) const;
-    void report(const SimTK::State& state, const PathSolution& start, const PathSolution& before,
-                const PathSolution& after, const PathPose& pose, int slippedAt) const;
+    void solve(const SimTK::State& state, CablePath& path) const;
+    void realizeMotion(const SimTK::State& state) const;
+    /** Stage: Velocity, of the cables too. */
+    const PathMotion& getMotion(const SimTK::State& state) const;
+    void setStart(SimTK::State& state, const TrackedPath& path) const;
+    void report(const std::vector<PathEvent>& events, const PathSolution& before, const TrackedPath& after,
+                const PathMotion& motion) const;
 
     CableSubsystemImpl& m_cables;
     CableIndex m_index;

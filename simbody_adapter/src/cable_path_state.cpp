@@ -13,6 +13,8 @@ void CablePathState::allocate(const SimTK::Subsystem::Guts& cables, State& state
     m_mode = cables.allocateDiscreteVariable(state, Stage::Position, new Value<CableMode>(defaultMode));
     m_path = cables.allocateAutoUpdateDiscreteVariable(state, Stage::Position, new Value<CablePath>(CablePath()),
                                                        Stage::Position);
+    m_motion = cables.allocateAutoUpdateDiscreteVariable(state, Stage::Position, new Value<PathMotion>(PathMotion()),
+                                                         Stage::Velocity);
     m_rate = cables.allocateLazyCacheEntry(state, Stage::Velocity, new Value<SimTK::Real>(SimTK::NaN));
     m_bias = cables.allocateLazyCacheEntry(state, Stage::Velocity, new Value<SimTK::Real>(SimTK::NaN));
     m_workspace =
@@ -51,6 +53,30 @@ CablePath& CablePathState::updPath(const State& state) const {
 
 void CablePathState::markPathRealized(const State& state) const {
     m_cables->markDiscreteVarUpdateValueRealized(state, m_path);
+}
+
+const PathMotion& CablePathState::getStartMotion(const State& state) const {
+    return Value<PathMotion>::downcast(m_cables->getDiscreteVariable(state, m_motion));
+}
+
+PathMotion& CablePathState::updStartMotion(State& state) const {
+    return Value<PathMotion>::updDowncast(m_cables->updDiscreteVariable(state, m_motion));
+}
+
+bool CablePathState::isMotionRealized(const State& state) const {
+    return m_cables->isDiscreteVarUpdateValueRealized(state, m_motion);
+}
+
+const PathMotion& CablePathState::getMotion(const State& state) const {
+    return Value<PathMotion>::downcast(m_cables->getDiscreteVarUpdateValue(state, m_motion));
+}
+
+PathMotion& CablePathState::updMotion(const State& state) const {
+    return Value<PathMotion>::updDowncast(m_cables->updDiscreteVarUpdateValue(state, m_motion));
+}
+
+void CablePathState::markMotionRealized(const State& state) const {
+    m_cables->markDiscreteVarUpdateValueRealized(state, m_motion);
 }
 
 bool CablePathState::isRateRealized(const State& state) const {

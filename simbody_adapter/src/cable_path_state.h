@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tautline/paths/path_sensitivity.h"
-#include "tautline/paths/path_solver.h"
+#include "tautline/paths/path_tracker.h"
 
 namespace tautline {
 
@@ -15,25 +15,22 @@ struct CableMode {
     bool keepsContacts = false;  ///< false: found anew in every pose
 };
 
-/** A cable's path and the pose for which it was solved. */
-struct CablePath {
-    PathSolution solution;
-    PathPose pose;                     ///< empty: not known
+/** A cable's path, the pose and time for which it was solved, and what it does there. */
+struct CablePath : TrackedPath {
     std::vector<SpatialForce> forces;  ///< of unit tension on the elements, about their origins, in ground
 };
 
 /** Room for the solves of one cable in one State, kept in the State's cache so that States can be realized
-side by side. Nothing in it changes an answer; the solver's scratch is not worth copying. */
+side by side. Nothing in it changes an answer; the tracker's scratch is not worth copying. */
 struct CableWorkspace {
-    explicit CableWorkspace(const PathSolverOptions& options) : solver(options) {}
-    CableWorkspace(const CableWorkspace& source) : solver(source.solver.getOptions()) {}
+    explicit CableWorkspace(const PathSolverOptions& options) : tracker(options) {}
+    CableWorkspace(const CableWorkspace& source) : tracker(source.tracker.getOptions()) {}
     CableWorkspace& operator=(const CableWorkspace& source) {
-        solver = PathSolver(source.solver.getOptions());
+        tracker = PathTracker(source.tracker.getOptions());
         return *this;
     }
 
-    PathSolver solver;
-    std::vector<SpatialVelocity> velocities;
+    PathTracker tracker;
     PathSensitivity sensitivity;
     PathVariation variation;
 };
@@ -42,7 +39,8 @@ struct CableWorkspace {
 
 Mode: a discrete variable that invalidates Position. Path: an auto-update discrete variable; its value is
 the start of the next solve, contact set included, its update value the path of the present pose with its unit forces,
-which a study swaps in when it accepts a step. Rate and bias (of the second derivative): cached at Velocity. */
+which a study swaps in when it accepts a step. Motion: another one, at Velocity; how the elements move where the next
+solve starts. Rate and bias (of the second derivative): cached at Velocity. */
 class CablePathState {
 public:
     /** To be called from realizeTopology(). */
@@ -61,6 +59,14 @@ public:
     CablePath& updPath(const SimTK::State& state) const;
     void markPathRealized(const SimTK::State& state) const;
 
+    const PathMotion& getStartMotion(const SimTK::State& state) const;
+    PathMotion& updStartMotion(SimTK::State& state) const;
+
+    bool isMotionRealized(const SimTK::State& state) const;
+    const PathMotion& getMotion(const SimTK::State& state) const;
+    PathMotion& updMotion(const SimTK::State& state) const;
+    void markMotionRealized(const SimTK::State& state) const;
+
     bool isRateRealized(const SimTK::State& state) const;
     SimTK::Real getRate(const SimTK::State& state) const;
     void setRate(const SimTK::State& state, SimTK::Real rate) const;
@@ -73,7 +79,7 @@ public:
 
 private:
     const SimTK::Subsystem::Guts* m_cables = nullptr;
-    SimTK::DiscreteVariableIndex m_mode, m_path;
+    SimTK::DiscreteVariableIndex m_mode, m_path, m_motion;
     SimTK::CacheEntryIndex m_rate, m_bias, m_workspace;
 };
 

@@ -89,6 +89,11 @@ int CableSubsystemImpl::realizeSubsystemPositionImpl(const State& state) const {
     return 0;
 }
 
+int CableSubsystemImpl::realizeSubsystemVelocityImpl(const State& state) const {
+    for (const std::unique_ptr<CableImpl>& cable : m_impls) cable->realizeVelocity(state);
+    return 0;
+}
+
 void CableSubsystemImpl::countStep(const State& state) const {
     getSystem().realize(state, Stage::Position);
     for (const std::unique_ptr<CableImpl>& cable : m_impls)
@@ -101,16 +106,12 @@ void CableSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause caus
     if (cause != SimTK::Event::Cause::Initialization) return;
     getSystem().realize(state, Stage::Position);
     // All paths first: each change of the State below would have the free ones solved anew.
-    std::vector<PathSolution> paths(m_impls.size());
-    std::vector<PathPose> poses(m_impls.size());
+    std::vector<TrackedPath> paths(m_impls.size());
     for (std::size_t i = 0; i < m_impls.size(); ++i)
-        if (!m_impls[i]->isDisabled(state)) {
-            paths[i] = m_impls[i]->calcSettledPath(state);
-            poses[i] = m_impls[i]->getPose(state);
-        }
+        if (!m_impls[i]->isDisabled(state)) paths[i] = m_impls[i]->calcSettledPath(state);
     for (std::size_t i = 0; i < m_impls.size(); ++i)
-        if (!paths[i].isEmpty() && paths[i].status != PathStatus::NotConverged)
-            m_impls[i]->keepContacts(state, paths[i], poses[i]);
+        if (!paths[i].solution.isEmpty() && paths[i].solution.status != PathStatus::NotConverged)
+            m_impls[i]->keepContacts(state, paths[i]);
     results.setAnyChangeMade(true);
 }
 

@@ -39,6 +39,7 @@ protected:
     CableSubsystemImpl* cloneImpl() const override;
     int realizeSubsystemTopologyImpl(SimTK::State& state) const override;
     int realizeSubsystemPositionImpl(const SimTK::State& state) const override;
+    int realizeSubsystemVelocityImpl(const SimTK::State& state) const override;
     void handleEventsImpl(SimTK::State& state, SimTK::Event::Cause cause, const SimTK::Array_<SimTK::EventId>& events,
                           const SimTK::HandleEventsOptions& options,
                           SimTK::HandleEventsResults& results) const override;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tautline/paths/path_following.h"
+#include "paths/path_following.h"
 #include "tautline/surfaces/ellipsoid.h"
 #include "tautline/surfaces/sphere.h"
 
@@ -100,6 +100,14 @@ struct PassedSphere {
     PathPose pose;
 };
 
+/** On the shortest way. */
+bool follow(PathSolver& solver, const PathProblem& problem, const PathPose& from, const PathPose& to,
+            PathSolution& path) {
+    PoseMotion way;
+    way.set(from, {}, 0, to);
+    return PathFollower({}).follow(solver, problem, way, 0.5, 1, path);
+}
+
 TEST(PathFollowing, ALongStepEndsOnThePathThatShortOnesLeadTo) {
     const PassedSphere scene;
     PathSolver solver;
@@ -114,7 +122,7 @@ TEST(PathFollowing, ALongStepEndsOnThePathThatShortOnesLeadTo) {
     const PathPose to = scene.calcPose(0.25);
     ASSERT_TRUE(isHoldingPath(scene.problem, to, shortSteps));
     PathSolution followed = start;
-    ASSERT_TRUE(followPath(solver, scene.problem, from, to, followed));
+    ASSERT_TRUE(follow(solver, scene.problem, from, to, followed));
     EXPECT_NEAR(followed.length, shortSteps.length, 1e-13);
 }
 
@@ -128,7 +136,7 @@ TEST(PathFollowing, IsNotCarriedBeyondTheLossOfStability) {
     ASSERT_EQ(path.status, PathStatus::Solved);
     const double length = path.length;
     scene.moveTo(-0.5);
-    EXPECT_FALSE(followPath(solver, scene.problem, from, scene.pose, path));
+    EXPECT_FALSE(follow(solver, scene.problem, from, scene.pose, path));
     EXPECT_EQ(path.length, length);
 }
 

@@ -8,6 +8,7 @@ verified ones. Shared by the report program and the tests. */
 
 #include "support/scene_file.h"
 #include "tautline/paths/contact_switch.h"
+#include "tautline/paths/contact_witness.h"
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/paths/path_solver.h"
 #include "tautline/paths/path_verification.h"

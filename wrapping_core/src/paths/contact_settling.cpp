@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tautline/paths/contact_settling.h"
+#include "paths/contact_settling.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "paths/geodesic_variations.h"
 #include "paths/posed_problem.h"
+#include "paths/search_limits.h"
+#include "paths/second_variation.h"
 #include "tautline/paths/contact_switch.h"
+#include "tautline/paths/contact_witness.h"
 #include "tautline/paths/path_stability.h"
 #include "tautline/paths/path_verification.h"
 
@@ -40,33 +42,6 @@ int findFirstTouched(const PathSolution& path) {
     return -1;
 }
 
-/** A path's contacts are judged to rounding, as far as its geodesics are shot so well: what is left of the path error
-turns a long segment off a thin obstacle by more than the tolerance of contact. */
-void refine(const PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
-    PathSolverOptions options = solver.getOptions();
-    options.pathErrorTolerance = std::min(options.pathErrorTolerance, kSettled);
-    options.maxIterations = std::min(options.maxIterations, kRefinements);
-    PathSolution refined = path;
-    PathSolver(options).solveKeepingContacts(problem, pose, refined);
-    if (!(refined.pathError < path.pathError)) return;
-    refined.status = path.status;
-    path = refined;
-}
-
-/** @return true if no witness is left below zero */
-bool switchContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
-    const int maxSwitches = 2 * problem.getNumElements();
-    for (int i = 0; i < maxSwitches; ++i) {
-        const int worst = findLowestWitness(problem, pose, path);
-        if (worst < 0) return true;
-        switchContact(problem, pose, worst, path);
-        solver.solveKeepingContacts(problem, pose, path);
-        if (path.status == PathStatus::NotConverged) return false;
-        refine(solver, problem, pose, path);
-    }
-    return false;
-}
-
 bool isMinimum(const PathSolution& path) {
     return path.status == PathStatus::Solved || path.status == PathStatus::EndInside;
 }
@@ -82,18 +57,15 @@ bool goOn(PathSolver& solver, const PathProblem& problem, const PathPose& pose, 
     return true;
 }
 
-/** The solver goes downhill from a saddle by itself; where it does not come to a shorter path, it is pushed off to
-either side. @return the obstacle at which the path was a saddle, if it is now a minimum; else -1 */
+/** The solver goes downhill from a saddle by itself; where it does not come to a shorter path, it begins beside the
+saddle, on either side. @return the obstacle at which the path was a saddle, if it is now a minimum; else -1 */
 int leaveSaddle(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PathStability stability = calcPathStability(problem, pose, path);
     if (holds(stability)) return -1;
-    const int e = stability.element;
-    for (const double push : {0.0, 0.3, -0.3, 1.0, -1.0}) {
-        PathSolution pushed = path;
-        ObstacleContact& contact = pushed.contacts[e];
-        if (push != 0)
-            contact.start = calcPushedStart(*problem.getElement(e).surface, contact.start, contact.geodesic.P, push);
-        if (goOn(solver, problem, pose, pushed, path)) return e;
+    for (const double amount : {0.0, kSaddleMove, -kSaddleMove}) {
+        PathSolution moved = path;
+        if (amount != 0) moveAlongNegativeCurvature({problem, pose}, amount, moved);
+        if (goOn(solver, problem, pose, moved, path)) return stability.element;
     }
     return -1;
 }
@@ -128,7 +100,39 @@ bool hasSlipped(const PathProblem& problem, const PathPose& pose, const PathSolu
 
 }  // namespace
 
-int settleContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+/** A path's contacts are judged to rounding, as far as its geodesics are shot so well: what is left of the path error
+turns a long segment off a thin obstacle by more than the tolerance of contact. */
+void ContactSettler::refine(const PathSolver& solver, const PathProblem& problem, const PathPose& pose,
+                            PathSolution& path) {
+    if (!m_refiner) {
+        PathSolverOptions options = solver.getOptions();
+        options.pathErrorTolerance = std::min(options.pathErrorTolerance, kSettled);
+        options.maxIterations = std::min(options.maxIterations, kRefinements);
+        m_refiner.emplace(options);
+    }
+    PathSolution refined = path;
+    m_refiner->solveKeepingContacts(problem, pose, refined);
+    if (!(refined.pathError < path.pathError)) return;
+    refined.status = path.status;
+    path = refined;
+}
+
+/** @return true if no witness is left below zero */
+bool ContactSettler::switchContacts(PathSolver& solver, const PathProblem& problem, const PathPose& pose,
+                                    PathSolution& path) {
+    const int maxSwitches = 2 * problem.getNumElements();
+    for (int i = 0; i < maxSwitches; ++i) {
+        const int worst = findLowestWitness(problem, pose, path);
+        if (worst < 0) return true;
+        switchContact(problem, pose, worst, path);
+        solver.solveKeepingContacts(problem, pose, path);
+        if (path.status == PathStatus::NotConverged) return false;
+        refine(solver, problem, pose, path);
+    }
+    return false;
+}
+
+int ContactSettler::settle(PathSolver& solver, const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PathSolution before = path;
     if (path.status != PathStatus::NotConverged) refine(solver, problem, pose, path);
     const bool hasWitnesses = path.status != PathStatus::NotConverged || hasSwallowedEnd(path);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tautline {
 namespace {
@@ -11,23 +10,6 @@ namespace {
 constexpr double kMostHalf = 2;  ///< half of a new arc where the surface hardly curves, in sizes
 
 }  // namespace
-
-double makeWitness(double value) {
-    constexpr double kTiny = std::numeric_limits<double>::min();
-    if (!std::isfinite(value)) return 1;
-    return value == 0 ? kTiny : value;
-}
-
-double calcContactWitness(const PathProblem& problem, const PathSolution& path, int element) {
-    const ObstacleContact& contact = path.contacts[element];
-    // An end inside leaves no path over the obstacle: it must be off, and then nothing is watched.
-    if (contact.isSwitchedOff) return contact.isTouched ? -1 : 1;
-    // A string that has left a ring has gone through it since the path that this one was continued from.
-    if (contact.hasLeftHole) return -1;
-    const double witness = contact.isTouched ? contact.start.length / problem.getElement(element).surface->getSize()
-                                             : contact.clearance.distance * contact.clearance.scale - kContactTolerance;
-    return makeWitness(witness);
-}
 
 void switchContact(const PathProblem& problem, const PathPose& pose, int element, PathSolution& path) {
     ObstacleContact& contact = path.contacts[element];

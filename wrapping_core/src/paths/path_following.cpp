@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tautline/paths/path_following.h"
+#include "paths/path_following.h"
 
 #include <algorithm>
 
-#include "paths/length_minimizer.h"
 #include "tautline/paths/path_stability.h"
 
 namespace tautline {
 namespace {
 
-constexpr double kShortestStep = 1.0 / 128;  ///< of the way
-
-/** A pose between two, the fraction `share` of the way; which elements take part is that of the second. */
-void interpolatePose(const PathPose& from, const PathPose& to, double share, PathPose& between) {
-    between = to;
-    for (std::size_t e = 0; e < to.X_GE.size(); ++e) {
-        const Pose &A = from.X_GE[e], &B = to.X_GE[e];
-        Eigen::AngleAxisd turn(Mat3(A.R.transpose() * B.R));
-        turn.angle() *= share;
-        between.X_GE[e] = Pose(A.R * turn.toRotationMatrix(), (1 - share) * A.p + share * B.p);
-    }
-}
+constexpr double kShortestPart = 1.0 / 128;  ///< of the largest one
 
 /** Whether no contact has moved farther than a way that a string slides within one step. */
 bool isNear(const PathProblem& problem, const PathSolution& a, const PathSolution& b) {
@@ -34,43 +22,45 @@ bool isNear(const PathProblem& problem, const PathSolution& a, const PathSolutio
     return true;
 }
 
-/** Downhill from where the path was: where a path that was the shortest becomes a saddle, two others part from it as
-the square root of the way, and Newton's method stays on the saddle. */
-bool slideOn(PathSolver& solver, const PathProblem& problem, const PathPose& pose, const PathSolution& reached,
-             PathSolution& next) {
-    next = reached;
-    LengthMinimizer minimizer(solver.getOptions());
-    if (!minimizer.minimize(problem, pose, next)) return false;
-    solver.solveKeepingContacts(problem, pose, next);
-    return isHoldingPath(problem, pose, next) && isNear(problem, reached, next);
-}
-
 }  // namespace
 
 bool isHoldingPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     return path.status == PathStatus::Solved && calcPathStability(problem, pose, path).holds();
 }
 
-bool followPath(PathSolver& solver, const PathProblem& problem, const PathPose& from, const PathPose& to,
-                PathSolution& path) {
-    PathSolution reached = path, next;
-    PathPose pose;
-    double share = 0, step = 0.5;
+bool PathFollower::follow(PathSolver& solver, const PathProblem& problem, const PoseMotion& way, double firstPart,
+                          double largestPart, PathSolution& path) {
+    PathSolution reached = path;
+    double share = 0, part = firstPart;
     while (share < 1) {
-        next = reached;
-        const double trial = std::min(1.0, share + step);
-        interpolatePose(from, to, trial, pose);
-        const PathPose& trialPose = trial < 1 ? pose : to;
-        solver.solveKeepingContacts(problem, trialPose, next);
-        if (isHoldingPath(problem, trialPose, next) || slideOn(solver, problem, trialPose, reached, next)) {
-            reached = next, share = trial, step *= 2;
+        const double trial = std::min(1.0, share + part);
+        way.calcPose(trial, m_pose);
+        if (step(solver, problem, reached)) {
+            reached = m_next;
+            share = trial;
+            part = std::min(2 * part, largestPart);
         } else {
-            step /= 2;
-            if (step < kShortestStep) return false;
+            part /= 2;
+            if (part < kShortestPart * largestPart) return false;
         }
     }
     path = reached;
     return true;
+}
+
+bool PathFollower::step(PathSolver& solver, const PathProblem& problem, const PathSolution& reached) {
+    m_next = reached;
+    solver.solveKeepingContacts(problem, m_pose, m_next);
+    return isHoldingPath(problem, m_pose, m_next) || slide(solver, problem, reached);
+}
+
+/** Downhill from where the path was: where a path that was the shortest becomes a saddle, two others part from it as
+the square root of the way, and Newton's method stays on the saddle. */
+bool PathFollower::slide(PathSolver& solver, const PathProblem& problem, const PathSolution& reached) {
+    m_next = reached;
+    if (!m_minimizer.minimize(problem, m_pose, m_next)) return false;
+    solver.solveKeepingContacts(problem, m_pose, m_next);
+    return isHoldingPath(problem, m_pose, m_next) && isNear(problem, reached, m_next);
 }
 
 }  // namespace tautline

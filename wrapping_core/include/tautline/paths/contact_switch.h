@@ -9,16 +9,6 @@ namespace tautline {
 verifying and flagging it. Tiny, since a penetration h at touchdown makes the rate jump with h. */
 inline constexpr double kContactTolerance = -1e-10;
 
-/** A value as a witness: never 0, since an event finder that starts from exactly zero misses what follows, and 1 where
-it is not finite. */
-double makeWitness(double value);
-
-/** What tells that one obstacle's contact must change: dimensionless, positive while the contact may stay, smooth
-through zero while contacts are kept, never 0 and never NaN. Touched: arc length over size (thesis Sec. 6.3).
-Lifted: clearance above kContactTolerance. Where nothing is smooth: 1 for an obstacle that is switched off, -1 for one
-that should be, and -1 for a ring that the path has left, which no switch mends: that path must be laid anew. */
-double calcContactWitness(const PathProblem& problem, const PathSolution& path, int element);
-
 /** Touches a lifted obstacle or lifts a touched one.
 @param path   solved at `pose`; its contact is changed, the path is to be solved anew */
 void switchContact(const PathProblem& problem, const PathPose& pose, int element, PathSolution& path);

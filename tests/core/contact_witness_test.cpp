@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Where one arc no longer describes how a ring holds the string: the witness falls through zero there, and the status
 says so from there on. */
-#include "tautline/paths/single_contact.h"
+#include "tautline/paths/contact_witness.h"
 
 #include <gtest/gtest.h>
 
@@ -33,10 +33,10 @@ struct StringOverRing {
         pose.X_GE[0].p.z() = z;
         solver.solveKeepingContacts(problem, pose, path);
     }
-    double calcWitness() const { return calcSingleContactWitness(problem, pose, path, 1); }
+    double calcWitness() const { return calcSplitWitness(problem, pose, path, 1); }
 };
 
-TEST(SingleContactWitness, IsTheHeightAtWhichASegmentPassesTheOtherSideOfARing) {
+TEST(SplitWitness, IsTheHeightAtWhichASegmentPassesTheOtherSideOfARing) {
     StringOverRing scene;
     ASSERT_EQ(scene.path.status, PathStatus::Solved);
     for (const double z : {1.0, 0.7, 0.4, 0.25, 0.21, 0.19, 0.15}) {
@@ -50,7 +50,7 @@ TEST(SingleContactWitness, IsTheHeightAtWhichASegmentPassesTheOtherSideOfARing) 
     }
 }
 
-TEST(SingleContactWitness, FallsThroughZeroWhereTheLineTouchesBothTubes) {
+TEST(SplitWitness, FallsThroughZeroWhereTheLineTouchesBothTubes) {
     StringOverRing scene;
     double high = 1.0, low = 0.1;  // touched twice at the height of the tubes' tops
     scene.lower(high);
@@ -65,7 +65,7 @@ TEST(SingleContactWitness, FallsThroughZeroWhereTheLineTouchesBothTubes) {
     EXPECT_NEAR(high, 0.2, 1e-9);
 }
 
-TEST(SingleContactWitness, IsThePressureWhereItTurnsInsideTheArc) {
+TEST(SplitWitness, IsThePressureWhereItTurnsInsideTheArc) {
     // Along the top of the ring's tube pressure is next to nothing, and turns where the arc dips to the inner side.
     PathProblem problem;
     problem.addPoint("origin");
@@ -84,7 +84,7 @@ TEST(SingleContactWitness, IsThePressureWhereItTurnsInsideTheArc) {
         contact.start.tangent = Vec3(0, 1, 0);  // along the ring: it presses on the outer half of the tube only
         contact.start.length = 0.05;
         problem.getElement(1).surface->shootGeodesic(contact.start, {}, contact.geodesic);
-        const double witness = calcSingleContactWitness(problem, pose, path, 1);
+        const double witness = calcSplitWitness(problem, pose, path, 1);
         EXPECT_EQ(witness > 0, contact.start.point.p.head<2>().norm() > 1) << rho;
         (witness > 0 ? pressing : pulling) += 1;
     }
@@ -92,7 +92,7 @@ TEST(SingleContactWitness, IsThePressureWhereItTurnsInsideTheArc) {
     EXPECT_EQ(pulling, 3);
 }
 
-TEST(SingleContactWitness, IsOneOnConvexSurfacesAndLiftedOnes) {
+TEST(SplitWitness, IsOneOnConvexSurfacesAndLiftedOnes) {
     PathProblem problem;
     problem.addPoint("origin");
     problem.addObstacle("cylinder", std::make_shared<Cylinder>(1));
@@ -102,8 +102,8 @@ TEST(SingleContactWitness, IsOneOnConvexSurfacesAndLiftedOnes) {
     pose.X_GE = {Pose(Vec3(-3, 0.5, 0)), Pose(), Pose(Vec3(9, 9, 9)), Pose(Vec3(3, 0.5, 0))};
     const PathSolution path = solvePath(problem, pose);
     ASSERT_TRUE(path.contacts[1].isTouched);
-    EXPECT_EQ(calcSingleContactWitness(problem, pose, path, 1), 1);
-    EXPECT_EQ(calcSingleContactWitness(problem, pose, path, 2), 1);
+    EXPECT_EQ(calcSplitWitness(problem, pose, path, 1), 1);
+    EXPECT_EQ(calcSplitWitness(problem, pose, path, 2), 1);
 }
 
 }  // namespace

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tautline/paths/path_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "paths/contact_settling.h"
+#include "paths/path_following.h"
+#include "paths/pose_motion.h"
+#include "paths/posed_problem.h"
+#include "paths/threading.h"
+#include "tautline/paths/contact_switch.h"
+#include "tautline/paths/path_explanation.h"
+#include "tautline/paths/path_stability.h"
+#include "tautline/paths/path_verification.h"
+
+namespace tautline {
+namespace {
+
+constexpr double kBetweenEvents = -1e-6;  ///< arcs just below zero, in sizes, which the event finder watches
+constexpr double kMaxTurn = 0.5;  ///< of neighbors against each other in one solve [rad]: one step of Newton's method
+constexpr double kMostTurns = 200 * kPi;  ///< of a motion that is followed [rad]
+
+/** Whether a path may be followed from there. */
+bool isGoodStart(const TrackedPath& start) {
+    return !start.pose.X_GE.empty() && start.solution.status != PathStatus::NotConverged &&
+           start.solution.status != PathStatus::NotMinimum;
+}
+
+/** Whether the velocities are those with which a path begins its way to another one. */
+bool isMotionOf(const TrackedPath& start, const PathMotion& motion) {
+    return motion.time == start.time && motion.V_GE.size() == start.pose.X_GE.size();
+}
+
+/** Calls visit(a, b) for neighbors on the path between which it is wound up if they turn against each other: fixed
+points and touched obstacles, one of two at least an obstacle. */
+template <class Visitor>
+void forEachWindingPair(const PosedProblem& scene, const PathSolution& path, Visitor visit) {
+    int a = 0;
+    for (int b = 1; b < scene.size(); ++b) {
+        if (!scene.pose.hasElement(b) || !(scene.isPoint(b) || path.contacts[b].isTouched)) continue;
+        if (!scene.isPoint(a) || !scene.isPoint(b)) visit(a, b);
+        a = b;
+    }
+}
+
+/** The turn from one pose to another by which two elements turn against each other, at most pi [rad]. */
+double calcRelativeTurn(const PathPose& from, const PathPose& to, int a, int b) {
+    const Mat3 before = from.X_GE[a].R.transpose() * from.X_GE[b].R, after = to.X_GE[a].R.transpose() * to.X_GE[b].R;
+    return std::acos(std::clamp(0.5 * (before.cwiseProduct(after).sum() - 1), -1.0, 1.0));
+}
+
+/** Whether elements turn against each other by more than one solve follows. */
+bool turnsFar(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion, const TrackedPath& path) {
+    const bool isMotionKnown = isMotionOf(start, motion);
+    const double duration = path.time - start.time;
+    bool isFar = false;
+    forEachWindingPair({problem, path.pose}, start.solution, [&](int a, int b) {
+        isFar |= calcRelativeTurn(start.pose, path.pose, a, b) > kMaxTurn;
+        if (isMotionKnown) isFar |= (motion.V_GE[a].w - motion.V_GE[b].w).norm() * std::abs(duration) > kMaxTurn;
+    });
+    return isFar;
+}
+
+/** The answer for a pose that is not finite: nothing to draw, nothing that pulls. */
+void makeEmptyPath(const PathProblem& problem, PathSolution& path) {
+    path = PathSolution();
+    path.contacts.assign(problem.getNumElements(), ObstacleContact());
+}
+
+/** Whether a path that could not be followed to its pose would otherwise be without fault. */
+bool isElsewhere(const PathProblem& problem, const TrackedPath& path) {
+    constexpr double kVanishing = 1e-8;  // path errors that are looser than any tolerance in use
+    const PathSolution& solution = path.solution;
+    const bool isUnfollowed = solution.status == PathStatus::NotMinimum || solution.status == PathStatus::NotConverged;
+    return isUnfollowed && solution.pathError < kVanishing && !solution.segments.empty() && !hasLeftAnyHole(solution) &&
+           verifyPath(problem, path.pose, solution, kBetweenEvents).isMinimum();
+}
+
+/** What a settling begins from: the contacts at the start where none were found, what encloses an end now, and what is
+known at the start of how the path goes through rings. */
+void prepareContacts(const PathSolution& start, PathSolution& path) {
+    const std::vector<ObstacleContact> contacts = path.contacts;
+    if (path.status == PathStatus::NotConverged) path.contacts = start.contacts;
+    for (std::size_t e = 0; e < contacts.size(); ++e) {
+        path.contacts[e].isSwitchedOff = contacts[e].isSwitchedOff;
+        if (!start.contacts[e].isSwitchedOff) path.contacts[e].passage = start.contacts[e].passage;
+    }
+}
+
+std::vector<PathEvent> listEvents(const PathProblem& problem, const PathSolution& start, const PathSolution& before,
+                                  const PathSolution& after, int slippedAt) {
+    using Kind = PathEvent::Kind;
+    std::vector<PathEvent> events;
+    if (slippedAt >= 0) events.push_back({Kind::Slipped, slippedAt});
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (problem.getElement(e).isPoint()) continue;
+        if (after.contacts[e].hasLeftHole && !start.contacts[e].hasLeftHole) events.push_back({Kind::LeftHole, e});
+        if (before.contacts[e].isTouched != after.contacts[e].isTouched)
+            events.push_back({after.contacts[e].isTouched ? Kind::Touched : Kind::Lifted, e});
+    }
+    return events;
+}
+
+}  // namespace
+
+struct PathTracker::Workspace {
+    explicit Workspace(const PathSolverOptions& options) : solver(options), follower(options) {}
+
+    PathSolver solver;
+    PathFollower follower;
+    ContactSettler settler;
+    PoseMotion way;
+};
+
+PathTracker::PathTracker(const PathSolverOptions& options) : m_workspace(std::make_unique<Workspace>(options)) {}
+PathTracker::PathTracker(PathTracker&&) noexcept = default;
+PathTracker& PathTracker::operator=(PathTracker&&) noexcept = default;
+PathTracker::~PathTracker() = default;
+
+const PathSolverOptions& PathTracker::getOptions() const {
+    return m_workspace->solver.getOptions();
+}
+
+void PathTracker::solve(const PathProblem& problem, TrackedPath& path) {
+    if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
+    path.solution.contacts.clear();
+    m_workspace->solver.solve(problem, path.pose, path.solution);
+}
+
+void PathTracker::track(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion,
+                        TrackedPath& path) {
+    if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
+    if (start.solution.isEmpty()) return solve(problem, path);
+    PathSolution& solution = path.solution;
+    const bool canFollow = isGoodStart(start), isFar = canFollow && turnsFar(problem, start, motion, path);
+    if (isFar && follow(problem, start, motion, 1, path)) return;
+    solution = start.solution;
+    m_workspace->solver.solveKeepingContacts(problem, path.pose, solution);
+    if (hasSwallowedEnd(solution)) return;
+    // A path that has lost its turns is not the one that was asked for.
+    if (isFar) {
+        solution.status = PathStatus::NotConverged;
+        return;
+    }
+    if (isHoldingPath(problem, path.pose, solution)) return;
+    PathStatus status = solution.status;
+    if (canFollow && follow(problem, start, motion, 0.5, path)) return;
+    if (status == PathStatus::Solved) solution.status = PathStatus::NotMinimum;
+}
+
+/** @param firstPart   of the way, or less where elements turn far
+@param path   unchanged if the path cannot be followed */
+bool PathTracker::follow(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion,
+                         double firstPart, TrackedPath& path) {
+    static const std::vector<SpatialVelocity> kUnknown;
+    PoseMotion& way = m_workspace->way;
+    way.set(start.pose, isMotionOf(start, motion) ? motion.V_GE : kUnknown, path.time - start.time, path.pose);
+    double turn = kMaxTurn;
+    forEachWindingPair({problem, path.pose}, start.solution,
+                       [&](int a, int b) { turn = std::max(turn, way.calcTurnBound(a, b)); });
+    if (!(turn < kMostTurns)) return false;
+    const double largestPart = kMaxTurn / turn;
+    PathSolution followed = start.solution;
+    if (!m_workspace->follower.follow(m_workspace->solver, problem, way, std::min(firstPart, largestPart), largestPart,
+                                      followed))
+        return false;
+    path.solution = followed;
+    return true;
+}
+
+std::vector<PathEvent> PathTracker::resolveEvent(const PathProblem& problem, const TrackedPath& start,
+                                                 TrackedPath& path) {
+    const PathSolution before = path.solution;
+    const PathSolution& from = start.solution.isEmpty() ? before : start.solution;
+    prepareContacts(from, path.solution);
+    const int slippedAt = m_workspace->settler.settle(m_workspace->solver, problem, path.pose, path.solution);
+    return listEvents(problem, from, before, path.solution, slippedAt);
+}
+
+void PathTracker::settle(const PathProblem& problem, TrackedPath& path) {
+    if (path.solution.status != PathStatus::NotConverged)
+        m_workspace->settler.settle(m_workspace->solver, problem, path.pose, path.solution);
+}
+
+double PathTracker::calcStabilityWitness(const PathProblem& problem, const TrackedPath& start,
+                                         const TrackedPath& path) {
+    constexpr double kTiny = std::numeric_limits<double>::min(), kGrowth = 10;
+    if (path.solution.status == PathStatus::NotConverged) return -1;
+    const auto calcMargin = [&](const TrackedPath& at) {
+        return calcPathStability(problem, at.pose, at.solution).margin;
+    };
+    double threshold = kSlipMargin;
+    if (start.solution.status == PathStatus::NotMinimum && !start.pose.X_GE.empty())
+        threshold = kGrowth * std::min(calcMargin(start), kSlipMargin);
+    const double margin = calcMargin(path) - threshold;
+    return margin == 0 ? -kTiny : margin;
+}
+
+PathStatus PathTracker::calcStatus(const PathProblem& problem, const TrackedPath& path) {
+    const PathSolution& solution = path.solution;
+    if (solution.status != PathStatus::Solved) return solution.status;
+    for (int e = 0; e < problem.getNumElements(); ++e)
+        if (!problem.getElement(e).isPoint() && solution.contacts[e].isSwitchedOff) return PathStatus::EndInside;
+    if (hasLeftAnyHole(solution)) return PathStatus::NotMinimum;
+    using Condition = PathVerification::Condition;
+    switch (verifyPath(problem, path.pose, solution, kBetweenEvents).condition) {
+        case Condition::None:
+            return PathStatus::Solved;
+        case Condition::OutsideDomain:
+            return PathStatus::LeftDomain;
+        case Condition::Unstable:
+            if (calcPathStability(problem, path.pose, solution).holds()) return PathStatus::Solved;
+            [[fallthrough]];
+        default:
+            return PathStatus::NotMinimum;
+    }
+}
+
+std::string PathTracker::explainStatus(const PathProblem& problem, const TrackedPath& path) {
+    if (isElsewhere(problem, path)) return "a local minimum, but not the one that the motion leads to";
+    PathSolution judged = path.solution;
+    judged.status = calcStatus(problem, path);
+    return tautline::explainStatus(problem, path.pose, judged, kBetweenEvents);
+}
+
+}  // namespace tautline
