@@ -117,6 +117,8 @@ const PathMotion& CableImpl::getMotion(const State& state) const {
 
 void CableImpl::setDisabled(State& state, bool isDisabled) const {
     CableMode mode = m_state.getMode(state);
+    // What it touched when it was disabled says nothing of where it is now.
+    if (mode.isDisabled && !isDisabled) m_state.updStart(state) = CablePath();
     mode.isDisabled = isDisabled;
     m_state.setMode(state, mode);
 }

@@ -360,5 +360,57 @@ TEST(ContactEvents, AStringThatIsLostByItsRingIsReported) {
     EXPECT_EQ(scene.cable.getStatistics().numHolesLeft, 1);
 }
 
+/** A string whose end is driven up and down past a cylinder, and a handler that disables it below and enables it above.
+ */
+struct AwakenedString : BareScene {
+    struct Switch : SimTK::ScheduledEventHandler {
+        explicit Switch(AwakenedString& scene) : scene(scene) {}
+        Real getNextEventTime(const State& state, bool includeCurrentTime) const override {
+            for (const Real time : {kOff, kOn})
+                if (time > state.getTime() || (includeCurrentTime && time == state.getTime())) return time;
+            return SimTK::Infinity;
+        }
+        void handleEvent(State& state, Real, bool&) const override {
+            if (state.getTime() < 0.5 * (kOff + kOn))
+                scene.cable.disable(state);
+            else
+                scene.cable.enable(state);
+        }
+        AwakenedString& scene;
+    };
+    static constexpr Real kOff = 0.2, kOn = 1.25;
+
+    AwakenedString() : slider(matter.Ground(), makeUpward(), makeBody(), SimTK::Rotation(SimTK::Pi / 2, SimTK::ZAxis)) {
+        SimTK::Motion::Sinusoid(slider, SimTK::Motion::Position, 1, SimTK::Pi / 2, -SimTK::Pi / 2);  // 2 s up
+        cable = Cable(cables, matter.Ground(), SimTK::Vec3(-2, 0.7, 0), slider, SimTK::Vec3(0));
+        obstacle =
+            cable.addObstacle(matter.Ground(), Transform(), std::make_shared<Cylinder>(0.5), SimTK::Vec3(0, 0.5, 0));
+        system.addEventHandler(new Switch(*this));
+    }
+    static Transform makeUpward() {
+        return Transform(SimTK::Rotation(SimTK::Pi / 2, SimTK::ZAxis), SimTK::Vec3(2, 0, 0));
+    }
+    MobilizedBody::Slider slider;
+    Cable cable;
+    CableElementIndex obstacle;
+};
+
+// 2026-11-26: the contacts from before it was disabled came back, and stayed to the end of the run.
+TEST(ContactEvents, ACableThatIsEnabledTouchesWhatItMeetsThen) {
+    AwakenedString scene;
+    SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+    SimTK::TimeStepper stepper(scene.system, integrator);
+    stepper.initialize(scene.system.realizeTopology());
+    scene.system.realize(stepper.getState(), Stage::Position);
+    ASSERT_TRUE(scene.cable.isTouched(stepper.getState(), scene.obstacle));
+    for (const Real time : {1.3, 1.7, 2.1}) {
+        stepper.stepTo(time);
+        const State& state = stepper.getState();
+        scene.system.realize(state, Stage::Position);
+        EXPECT_FALSE(scene.cable.isTouched(state, scene.obstacle)) << time;
+        EXPECT_EQ(scene.cable.calcStatus(state), PathStatus::Solved) << time;
+    }
+}
+
 }  // namespace
 }  // namespace tautline::testing
