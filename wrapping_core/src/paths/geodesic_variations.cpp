@@ -35,9 +35,4 @@ GeodesicStart calcCorrectedStart(const Surface& surface, const GeodesicStart& st
     return corrected;  // the tangent is made tangent and unit at the new point when it is shot (Eqn. 7.26)
 }
 
-GeodesicStart calcPushedStart(const Surface& surface, const GeodesicStart& start, const DarbouxFrame& P_S,
-                              double push) {
-    return calcCorrectedStart(surface, start, P_S, Vec4(0, push * surface.getSize(), 0, 0));
-}
-
 }  // namespace tautline

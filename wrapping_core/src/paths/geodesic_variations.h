@@ -19,7 +19,4 @@ FrameVariations calcEndVariations(const DarbouxFrame& Q, const Geodesic& geodesi
 GeodesicStart calcCorrectedStart(const Surface& surface, const GeodesicStart& start, const DarbouxFrame& P_S,
                                  const Vec4& correction);
 
-/** The start moved sideways, along B. @param push   in sizes of the surface */
-GeodesicStart calcPushedStart(const Surface& surface, const GeodesicStart& start, const DarbouxFrame& P_S, double push);
-
 }  // namespace tautline
