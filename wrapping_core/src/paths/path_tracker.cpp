@@ -45,10 +45,18 @@ void forEachWindingPair(const PosedProblem& scene, const PathSolution& path, Vis
     }
 }
 
-/** The turn from one pose to another by which two elements turn against each other, at most pi [rad]. */
-double calcRelativeTurn(const PathPose& from, const PathPose& to, int a, int b) {
+/** 1 + 2 cos of the turn between two rotations. */
+double calcTurnTrace(const Mat3& A, const Mat3& B) {
+    return A.cwiseProduct(B).sum();
+}
+
+/** Whether two elements turn against each other by more than kMaxTurn from one pose to another. */
+bool turnsFarApart(const PathPose& from, const PathPose& to, int a, int b) {
+    static const double kTraceOfMost = 1 + 2 * std::cos(kMaxTurn), kTraceOfHalf = 1 + 2 * std::cos(0.5 * kMaxTurn);
+    const auto turnsLittle = [&](int e) { return calcTurnTrace(from.X_GE[e].R, to.X_GE[e].R) > kTraceOfHalf; };
+    if (turnsLittle(a) && turnsLittle(b)) return false;  // nearly always, and cheap
     const Mat3 before = from.X_GE[a].R.transpose() * from.X_GE[b].R, after = to.X_GE[a].R.transpose() * to.X_GE[b].R;
-    return std::acos(std::clamp(0.5 * (before.cwiseProduct(after).sum() - 1), -1.0, 1.0));
+    return calcTurnTrace(before, after) < kTraceOfMost;
 }
 
 /** Whether elements turn against each other by more than one solve follows. */
@@ -57,7 +65,7 @@ bool turnsFar(const PathProblem& problem, const TrackedPath& start, const PathMo
     const double duration = path.time - start.time;
     bool isFar = false;
     forEachWindingPair({problem, path.pose}, start.solution, [&](int a, int b) {
-        isFar |= calcRelativeTurn(start.pose, path.pose, a, b) > kMaxTurn;
+        isFar |= turnsFarApart(start.pose, path.pose, a, b);
         if (isMotionKnown) isFar |= (motion.V_GE[a].w - motion.V_GE[b].w).norm() * std::abs(duration) > kMaxTurn;
     });
     return isFar;
