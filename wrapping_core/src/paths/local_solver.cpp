@@ -57,12 +57,13 @@ void goBack(const PathSolution& earlier, PathSolution& path) {
     path.report = report;
 }
 
-PathVerification LocalSolver::solve(const PosedProblem& scene, PathSolution& path) {
+PathVerification LocalSolver::solve(const PosedProblem& scene, PathSolution& path, bool leavesSaddles) {
     m_deepest.reserve(scene.size());
     int numRepairs = 0;
     for (int change = 0;; ++change) {
         const PathVerification broken = findBrokenCondition(scene, path);
         if (broken.isMinimum() || change >= calcMaxContactChanges(scene.size())) return broken;
+        if (broken.condition == Condition::Unstable && !leavesSaddles) return broken;
         if (!act(scene, broken, numRepairs, path)) return broken;
     }
 }

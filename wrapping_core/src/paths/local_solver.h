@@ -26,9 +26,10 @@ class LocalSolver {
 public:
     explicit LocalSolver(const PathSolverOptions& options) : m_newton(options), m_minimizer(options) {}
 
-    /** @param path   in: contact set and starts of the arcs; out: the path of the last turn
+    /** @param path            in: contact set and starts of the arcs; out: the path of the last turn
+    @param leavesSaddles   false: a saddle is given up, and stays where it is
     @return the condition that stopped it; None for a minimum */
-    PathVerification solve(const PosedProblem& scene, PathSolution& path);
+    PathVerification solve(const PosedProblem& scene, PathSolution& path, bool leavesSaddles = true);
 
     /** The contact set as it is: Newton's method from the starts in `path`, fast where they are near; where it leads to
     no path, the minimizer from the same starts. @return true if the path error vanishes */

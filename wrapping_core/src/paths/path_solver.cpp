@@ -17,6 +17,7 @@ namespace tautline {
 namespace {
 
 constexpr double kEndHeight = 1e-7;  ///< of ends that lie on a surface, in its sizes
+constexpr double kFarAway = 1e3;     ///< distance from ground's origin over span: three digits of a coordinate are lost
 
 }  // namespace
 
@@ -25,7 +26,8 @@ struct PathSolver::Workspace {
     explicit Workspace(const PathSolverOptions& options) : search(options) {}
 
     PathSearch search;
-    PathPose liftedPose;
+    PathPose workingPose;
+    Vec3 origin_G = Vec3::Zero();      ///< of the frame of the working pose
     std::vector<double> startLengths;  ///< of the arcs by element, while contacts are kept
 };
 
@@ -51,12 +53,13 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
             "path solver: the path to continue has ", path.contacts.size(), " elements, the problem ",
             problem.getNumElements());
     if (!begin(problem, givenPose, path)) return;
-    const PathPose& pose = calcLiftedPose(problem, givenPose);
+    const PathPose& pose = calcWorkingPose(problem, givenPose);
     const bool isContinued = !path.isEmpty();
     if (!isContinued) path.contacts.assign(problem.getNumElements(), ObstacleContact());
     switchOffEnclosing({problem, pose}, path);
     const bool isFound = updWorkspace().search.findPath({problem, pose}, isContinued, path);
     finish(problem, pose, isFound, path);
+    moveToGround(path);
 }
 
 void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose& givenPose, PathSolution& path) {
@@ -64,7 +67,7 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     require(static_cast<int>(path.contacts.size()) == problem.getNumElements(),
             "path solver: solveKeepingContacts needs a path that was solved before");
     if (!begin(problem, givenPose, path)) return;
-    const PathPose& pose = calcLiftedPose(problem, givenPose);
+    const PathPose& pose = calcWorkingPose(problem, givenPose);
     const PosedProblem scene{problem, pose};
     switchOffEnclosing(scene, path);
     const bool isConverged = findKeptPath(problem, pose, path) && std::isfinite(path.length);
@@ -72,6 +75,7 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     watchNearestPlaces(scene, path);
     updatePassages(scene, isConverged, path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
+    moveToGround(path);
 }
 
 /** Counts anew. @return false, and says NotConverged, in a pose that is not finite, and among obstacles
@@ -90,23 +94,48 @@ bool PathSolver::begin(const PathProblem& problem, const PathPose& pose, PathSol
     return false;
 }
 
-/** The pose with every fixed point that lies on a surface of its span lifted off by kEndHeight: the straight segment
-there would have no length, and no direction. The length changes by that height at most. */
-const PathPose& PathSolver::calcLiftedPose(const PathProblem& problem, const PathPose& pose) {
-    PathPose& lifted = updWorkspace().liftedPose;
-    bool isLifted = false;
+/** Where ground's origin is moved to: near the path if that lies so far away that rounding of its coordinates would
+decide about contacts. */
+Vec3 PathSolver::chooseOrigin(const PathPose& pose) {
+    const Vec3& first = pose.X_GE.front().p;
+    const double span = (pose.X_GE.back().p - first).cwiseAbs().maxCoeff();
+    return first.cwiseAbs().maxCoeff() > kFarAway * span ? first : Vec3(Vec3::Zero());
+}
+
+/** The pose in a ground whose origin is near the path, with every fixed point that lies on a surface of its span lifted
+off by kEndHeight: the straight segment there would have no length, and no direction. The length changes by that height
+at most. */
+const PathPose& PathSolver::calcWorkingPose(const PathProblem& problem, const PathPose& pose) {
+    PathPose& working = updWorkspace().workingPose;
+    m_workspace->origin_G = chooseOrigin(pose);
+    const bool isMoved = !m_workspace->origin_G.isZero();
+    if (isMoved) {
+        working = pose;
+        for (Pose& X : working.X_GE) X.p -= m_workspace->origin_G;
+    }
+    bool isCopied = isMoved;
     Vec3 N_S;
-    const PosedProblem scene{problem, pose};
+    const PosedProblem scene{problem, isMoved ? working : pose};
     scene.forEachSpanEnd([&](int point, int e) {
         const double size = scene.getSurface(e).getSize();
         const double height =
-            scene.getSurface(e).calcHeightAndNormal(scene.getPose(e).shiftBack(pose.X_GE[point].p), N_S);
+            scene.getSurface(e).calcHeightAndNormal(scene.getPose(e).shiftBack(scene.getPose(point).p), N_S);
         if (!(std::abs(height) < kEndHeight * size)) return;
-        if (!isLifted) lifted = pose;
-        isLifted = true;
-        lifted.X_GE[point].p += (kEndHeight * size - height) * pose.X_GE[e].rotate(N_S);
+        const Vec3 lift_G = (kEndHeight * size - height) * scene.getPose(e).rotate(N_S);
+        if (!isCopied) working = pose;
+        isCopied = true;
+        working.X_GE[point].p += lift_G;
     });
-    return isLifted ? lifted : pose;
+    return isCopied ? working : pose;
+}
+
+/** The straight segments from the frame of the working pose to ground. */
+void PathSolver::moveToGround(PathSolution& path) const {
+    if (m_workspace->origin_G.isZero()) return;
+    for (StraightSegment& line : path.segments) {
+        line.A += m_workspace->origin_G;
+        line.B += m_workspace->origin_G;
+    }
 }
 
 /** The path error may vanish where e = -t too: arcs are turned round there, to the length nearest that of the start. */

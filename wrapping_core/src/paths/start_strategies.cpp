@@ -34,6 +34,12 @@ bool hasLoops(const PosedProblem& scene, const Route& route) {
     return hasLoops;
 }
 
+/** Whether a string rests where it shows a fault, so that no finer one would show another. */
+bool isAtRest(const StringFault& fault) {
+    using Kind = StringFault::Kind;
+    return fault.kind == Kind::Groove || fault.kind == Kind::TwoContacts || fault.kind == Kind::OutOfOrder;
+}
+
 /** The first element from one on that has waypoints: the insertion at the latest. */
 int findNextWaypoint(const Route& route, int element) {
     while (route.waypoints[element].empty()) ++element;
@@ -137,16 +143,16 @@ void PathSearch::offer(Rank rank, const PathSolution& path) {
     if (rank != Rank::Minimum) m_best = path;
 }
 
-/** Keeps the course of the path that was given, whatever the hints say. What yielded to another obstacle is touched
-again if that leads to a minimum. */
+/** Keeps the course of the path that was given, whatever the hints say. Where an obstacle has yielded to another, that
+path goes on as it is, saddle or not; and a minimum with all obstacles is tried for beside it. */
 void PathSearch::continuePrevious(PathSolution& path) {
     const bool hasYielded = std::any_of(path.contacts.begin(), path.contacts.end(),
                                         [](const ObstacleContact& contact) { return contact.yields; });
-    offer(judge(m_local.solve(*m_scene, path), PassageRule(), false, path), path);
+    offer(judge(m_local.solve(*m_scene, path, !hasYielded), PassageRule(), hasYielded, path), path);
     m_isLoose = m_bestRank == Rank::MinimumElsewhere;
     if (!hasYielded || m_bestRank == Rank::Minimum) return;
     for (ObstacleContact& contact : path.contacts) contact.yields = false;
-    offer(judge(m_local.solve(*m_scene, path), PassageRule(), false, path), path);
+    offer(judge(m_local.solve(*m_scene, path), PassageRule(), true, path), path);
 }
 
 void PathSearch::layAlongPrevious(PathSolution& path) {
@@ -218,8 +224,9 @@ void PathSearch::solveAlongBand(const Route& route, bool keepsSides, PathSolutio
         path.report.bandLevel = ++level;
         tightenBand(band, route, keepsSides, path);
         freeBand(route, keepsSides, path);
-        if (m_bestRank == Rank::Minimum || m_lastRank == Rank::MinimumElsewhere)
-            return;  // it has come to rest, or slipped off the route
+        // A band that has slipped off the route shows nothing more; one that rests there, but is not smooth, may.
+        const bool hasSlipped = m_lastRank == Rank::MinimumElsewhere && !isAtRest(m_band.findFault(m_scene->problem));
+        if (m_bestRank == Rank::Minimum || hasSlipped) return;
     }
     // A band in which nothing is wrong may still slide, slower than was asked for.
     const StringFault::Kind fault = m_band.findFault(m_scene->problem).kind;
@@ -240,7 +247,8 @@ bool PathSearch::tightenBand(const BandLevel& level, const Route& route, bool ke
     m_broken = m_local.solve(scene, path);
     const Rank rank = m_lastRank = judge(m_broken, route.threading, keepsSides, path);
     offer(rank, path);
-    if (rank >= m_atRestRank && hasRightPassages(scene, route.threading, path)) {
+    const bool isOnRoute = rank != Rank::MinimumElsewhere && hasRightPassages(scene, route.threading, path);
+    if (rank >= m_atRestRank && isOnRoute) {
         m_atRestRank = rank;
         m_atRest = path;
     }
@@ -262,15 +270,11 @@ void PathSearch::freeBand(const Route& route, bool keepsSides, PathSolution& pat
 
 /** A string that rests on the route asked for, but is not one smooth path: the path next to it is the answer. */
 void PathSearch::acceptFault(PathSolution& path) {
-    using Kind = StringFault::Kind;
     const StringFault fault = path.fault;
-    const bool isAtRest =
-        fault.kind == Kind::Groove || fault.kind == Kind::TwoContacts || fault.kind == Kind::OutOfOrder;
-    if (!isAtRest || m_atRestRank == Rank::None || m_atRestRank == Rank::MinimumElsewhere) {
-        m_best.fault = fault;
-        return;
-    }
-    if (m_atRestRank == Rank::NotStationary && fault.other >= 0) yieldInGrooves(path);
+    m_best.fault = fault;
+    if (!isAtRest(fault)) return;
+    if (m_atRestRank < Rank::Stationary && fault.other >= 0) yieldInGrooves(path);
+    if (m_atRestRank == Rank::None) keepContactsOfBand(path);
     goBack(m_atRest, path);
     path.fault = fault;
     offer(Rank::AskedButBroken, path);
@@ -291,13 +295,22 @@ void PathSearch::yieldInGrooves(PathSolution& path) {
             path.contacts[second].isTouched = false;
             path.contacts[second].yields = true;
         }
-        const PathVerification broken = m_local.solve(*m_scene, path);
-        const Rank rank = std::min(judge(broken, PassageRule(), false, path), Rank::Stationary);
-        const bool isLonger = rank == m_atRestRank && path.length > m_atRest.length;
-        if (rank < Rank::Stationary || (m_atRestRank == Rank::Stationary && !isLonger)) continue;
+        const Rank rank = judge(m_local.solve(*m_scene, path, false), PassageRule(), true, path);
+        if (rank != Rank::Stationary) continue;
+        if (m_atRestRank == Rank::Stationary && !(path.length > m_atRest.length)) continue;
         m_atRestRank = rank;
         m_atRest = path;
     }
+}
+
+/** The contacts that the band shows, as they are: a path that can be drawn where the string is. */
+void PathSearch::keepContactsOfBand(PathSolution& path) {
+    clearContacts(path);
+    m_band.extractContacts(*m_scene, path.contacts);
+    const bool isStationary = m_local.findStationaryPath(*m_scene, path);
+    updateClearances(*m_scene, path);
+    m_atRestRank = isStationary ? Rank::Stationary : Rank::NotStationary;
+    m_atRest = path;
 }
 
 }  // namespace tautline

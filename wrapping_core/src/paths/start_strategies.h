@@ -71,6 +71,7 @@ private:
     void freeBand(const Route& route, bool keepsSides, PathSolution& path);
     void acceptFault(PathSolution& path);
     void yieldInGrooves(PathSolution& path);
+    void keepContactsOfBand(PathSolution& path);
     Rank judge(const PathVerification& broken, const PassageRule& threading, bool keepsSides,
                const PathSolution& path) const;
     void offer(Rank rank, const PathSolution& path);

@@ -43,7 +43,9 @@ private:
 
     Workspace& updWorkspace();
     bool begin(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
-    const PathPose& calcLiftedPose(const PathProblem& problem, const PathPose& pose);
+    static Vec3 chooseOrigin(const PathPose& pose);
+    const PathPose& calcWorkingPose(const PathProblem& problem, const PathPose& pose);
+    void moveToGround(PathSolution& path) const;
     bool findKeptPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     static void switchOffEnclosing(const PosedProblem& scene, PathSolution& path);
     void finish(const PathProblem& problem, const PathPose& pose, bool isFound, PathSolution& path) const;
