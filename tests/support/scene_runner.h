@@ -143,12 +143,6 @@ inline const char* getName(Verdict verdict) {
     return "";
 }
 
-inline bool hasHints(const PathProblem& problem) {
-    for (int e = 0; e < problem.getNumElements(); ++e)
-        if (!std::holds_alternative<std::monostate>(problem.getElement(e).hint)) return true;
-    return false;
-}
-
 /** Judges one answer: length to 1e-9, contact points to 1e-7 of the obstacle's size, flags equal.
 @param withPoints   compare contact points too (static scenes and the first step of moving ones) */
 inline Verdict judge(const Scene& scene, const PathProblem& problem, const PathPose& pose, const PathSolution& path,
@@ -156,7 +150,7 @@ inline Verdict judge(const Scene& scene, const PathProblem& problem, const PathP
     if (!scene.hasAnswer()) return Verdict::Unlisted;
     if (path.status == PathStatus::NotConverged) return Verdict::NotConverged;
     // Without hints a string may come to lie where obstacles overlap, and says so.
-    if (path.status == PathStatus::NotMinimum && path.fault.kind == StringFault::Kind::Groove && !hasHints(problem))
+    if (path.status == PathStatus::NotMinimum && path.fault.kind == StringFault::Kind::Groove && !problem.hasHints())
         return Verdict::NoSmoothString;
     if (path.status != PathStatus::Solved || !verifyPath(problem, pose, path).isMinimum()) return Verdict::Wrong;
     bool isSame = std::abs(path.length / scene.length[step] - 1) < 1e-9;

@@ -23,10 +23,13 @@ constexpr int kTangency[] = {0, 2};
 
 }  // namespace
 
-bool LengthMinimizer::minimize(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+bool LengthMinimizer::minimize(const PathProblem& problem, const PathPose& pose, int maxIterations,
+                               PathSolution& path) {
     m_delta = 0, m_penalty = kLeastPenalty;
     const bool isFinite = m_stepper.begin(problem, pose, path);
-    for (int i = 0; isFinite && path.pathError > m_options.pathErrorTolerance && i < m_options.maxIterations; ++i) {
+    for (int i = 0; isFinite && path.pathError > m_options.pathErrorTolerance &&
+                    i < std::min(maxIterations, m_options.maxIterations);
+         ++i) {
         ++path.iterations;
         if (!takeStep(path)) break;
         m_stepper.acceptTrial(path);

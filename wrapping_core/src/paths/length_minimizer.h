@@ -26,7 +26,12 @@ public:
 
     /** @param path   in: contact set and starts of the arcs; out: arcs, segments, length and error, finite also where
     the minimization fails. @return true if max |eps| <= tolerance */
-    bool minimize(const PathProblem& problem, const PathPose& pose, PathSolution& path);
+    bool minimize(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+        return minimize(problem, pose, m_options.maxIterations, path);
+    }
+
+    /** The same with fewer iterations, if `maxIterations` is less than the options say. */
+    bool minimize(const PathProblem& problem, const PathPose& pose, int maxIterations, PathSolution& path);
 
 private:
     bool takeStep(PathSolution& path);

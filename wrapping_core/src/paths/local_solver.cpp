@@ -57,13 +57,14 @@ void goBack(const PathSolution& earlier, PathSolution& path) {
     path.report = report;
 }
 
-PathVerification LocalSolver::solve(const PosedProblem& scene, PathSolution& path, bool leavesSaddles) {
+PathVerification LocalSolver::solve(const PosedProblem& scene, PathSolution& path, const Effort& effort) {
+    m_numDescents = effort.maxDescents;
     m_deepest.reserve(scene.size());
     int numRepairs = 0;
     for (int change = 0;; ++change) {
         const PathVerification broken = findBrokenCondition(scene, path);
         if (broken.isMinimum() || change >= calcMaxContactChanges(scene.size())) return broken;
-        if (broken.condition == Condition::Unstable && !leavesSaddles) return broken;
+        if (broken.condition == Condition::Unstable && !effort.leavesSaddles) return broken;
         if (!act(scene, broken, numRepairs, path)) return broken;
     }
 }
@@ -120,24 +121,35 @@ void LocalSolver::touchDeepest(const PosedProblem& scene, PathSolution& path) {
 }
 
 bool LocalSolver::findStationaryPath(const PosedProblem& scene, PathSolution& path) {
+    m_numDescents = Effort::kUnlimited;
+    return solveContacts(scene, path);
+}
+
+/** Newton's method, else the minimizer from the same starts. */
+bool LocalSolver::solveContacts(const PosedProblem& scene, PathSolution& path) {
     m_starts.resize(path.contacts.size());
     for (std::size_t e = 0; e < path.contacts.size(); ++e) m_starts[e] = path.contacts[e].start;
     if (m_newton.iterate(scene.problem, scene.pose, path)) return true;
     restoreStarts(path);
-    path.report.usedMinimizer = true;
-    return m_minimizer.minimize(scene.problem, scene.pose, path);
+    return minimize(scene, path);
 }
 
 /** A stationary path that turns back at an arc gives way to the minimizer's, if that does not. */
 bool LocalSolver::findForwardPath(const PosedProblem& scene, PathSolution& path) {
-    if (!findStationaryPath(scene, path)) return false;
+    if (!solveContacts(scene, path)) return false;
     if (!hasReversedTangent(scene, path)) return true;
     m_reversed = path;
     restoreStarts(path);
-    path.report.usedMinimizer = true;
-    if (!m_minimizer.minimize(scene.problem, scene.pose, path) || hasReversedTangent(scene, path))
-        goBack(m_reversed, path);
+    if (!minimize(scene, path) || hasReversedTangent(scene, path)) goBack(m_reversed, path);
     return true;
+}
+
+bool LocalSolver::minimize(const PosedProblem& scene, PathSolution& path) {
+    path.report.usedMinimizer = true;
+    const int before = path.iterations;
+    const bool isStationary = m_minimizer.minimize(scene.problem, scene.pose, m_numDescents, path);
+    m_numDescents -= path.iterations - before;
+    return isStationary;
 }
 
 /** The starts from which the last contact set was solved. */
@@ -149,10 +161,10 @@ void LocalSolver::restoreStarts(PathSolution& path) const {
 its direction of negative curvature. */
 void LocalSolver::leaveSaddle(const PosedProblem& scene, PathSolution& path) {
     restoreStarts(path);
-    if (!m_minimizer.minimize(scene.problem, scene.pose, path)) return;
+    if (!minimize(scene, path)) return;
     if (calcSecondVariation(scene, path).isStable()) return;
     moveAlongNegativeCurvature(scene, kSaddleMove, path);
-    m_minimizer.minimize(scene.problem, scene.pose, path);
+    minimize(scene, path);
 }
 
 void updateClearances(const PosedProblem& scene, PathSolution& path) {

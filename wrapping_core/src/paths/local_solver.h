@@ -26,10 +26,17 @@ class LocalSolver {
 public:
     explicit LocalSolver(const PathSolverOptions& options) : m_newton(options), m_minimizer(options) {}
 
-    /** @param path            in: contact set and starts of the arcs; out: the path of the last turn
-    @param leavesSaddles   false: a saddle is given up, and stays where it is
+    /** How much a solve may do. */
+    struct Effort {
+        bool leavesSaddles = true;     ///< false: a saddle is given up, and stays where it is
+        int maxDescents = kUnlimited;  ///< iterations of the minimizer, in all: a start that needs more is a poor one
+        static constexpr int kUnlimited = 1 << 30;
+    };
+
+    /** @param path   in: contact set and starts of the arcs; out: the path of the last turn
     @return the condition that stopped it; None for a minimum */
-    PathVerification solve(const PosedProblem& scene, PathSolution& path, bool leavesSaddles = true);
+    PathVerification solve(const PosedProblem& scene, PathSolution& path, const Effort& effort);
+    PathVerification solve(const PosedProblem& scene, PathSolution& path) { return solve(scene, path, Effort()); }
 
     /** The contact set as it is: Newton's method from the starts in `path`, fast where they are near; where it leads to
     no path, the minimizer from the same starts. @return true if the path error vanishes */
@@ -38,14 +45,17 @@ public:
 private:
     PathVerification findBrokenCondition(const PosedProblem& scene, PathSolution& path);
     bool act(const PosedProblem& scene, const PathVerification& broken, int& numRepairs, PathSolution& path);
+    bool solveContacts(const PosedProblem& scene, PathSolution& path);
     bool findForwardPath(const PosedProblem& scene, PathSolution& path);
     void touchDeepest(const PosedProblem& scene, PathSolution& path);
     void leaveSaddle(const PosedProblem& scene, PathSolution& path);
     void restoreStarts(PathSolution& path) const;
+    bool minimize(const PosedProblem& scene, PathSolution& path);
 
     PathNewton m_newton;
     LengthMinimizer m_minimizer;
     std::vector<GeodesicStart> m_starts;  ///< of the last contact set, by element
+    int m_numDescents = 0;                ///< iterations that the minimizer may still do
     std::vector<int> m_deepest;           ///< by segment: the obstacle that it penetrates most, or -1
     PathSolution m_reversed;
 };

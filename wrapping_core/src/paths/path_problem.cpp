@@ -98,6 +98,8 @@ void PathProblem::setHint(int element, const StartHint& hint) {
     PathElement& obstacle = m_elements[element];
     require(!obstacle.isPoint(), "path: element '", obstacle.name, "' is a point and takes no hint");
     checkHint(hint, *obstacle.surface, obstacle.name);
+    const auto count = [](const StartHint& said) { return std::holds_alternative<std::monostate>(said) ? 0 : 1; };
+    m_numHints += count(hint) - count(obstacle.hint);
     obstacle.hint = hint;
     obstacle.side_S = calcSide(hint, *obstacle.surface, obstacle.isEndless);
     obstacle.isAskedThroughHole = isThroughHole(hint, *obstacle.surface);

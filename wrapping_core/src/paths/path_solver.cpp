@@ -175,9 +175,7 @@ void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool i
     const bool isConverged = path.pathError <= m_options.pathErrorTolerance && std::isfinite(path.length);
     updatePassages(scene, isConverged, path);
     if (path.wasCold) giveUpLostHoles(path);
-    if (isFound)
-        for (ObstacleContact& contact : path.contacts) contact.yields = false;
-    if (isConverged && path.followsHints()) path.deviation = findDeviation(scene, path);
+    if (isConverged && problem.hasHints() && path.followsHints()) path.deviation = findDeviation(scene, path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
     if (!isConverged) return;
     scene.forEachObstacle([&](int e) {

@@ -37,32 +37,47 @@ double calcTurning(const Surface& surface, const Pose& X_GS, const ObstacleConta
     return turning;
 }
 
-/** A place on a surface and the normal there, both in S. */
-struct Place {
-    Vec3 p, N;
-};
-
-/** The middle of an arc. Of one that turns by less than half a circle the middle of its ends tells the side. */
-Place findMiddle(const Surface& surface, const ObstacleContact& contact) {
-    constexpr double kHalfCircle = 2.5;  // [rad], less than pi since curvatures vary
+/** By how much an arc turns, at least nearly [rad]. */
+double calcTurn(const ObstacleContact& contact) {
     const Geodesic& arc = contact.geodesic;
-    const double curvature = std::max(std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN));
-    if (contact.start.length * curvature < kHalfCircle) return {0.5 * (arc.P.x + arc.Q.x), arc.P.N + arc.Q.N};
+    return contact.start.length * std::max(std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN));
+}
+
+/** The frame in the middle of an arc, shot to no more accuracy than a side needs. */
+DarbouxFrame shootToMiddle(const Surface& surface, const ObstacleContact& contact) {
     GeodesicStart half = contact.start;
     half.length *= 0.5;
     Geodesic geodesic;
     surface.shootGeodesic(half, kRoughlyAlong, geodesic);
-    return {geodesic.Q.x, geodesic.Q.N};
+    return geodesic.Q;
 }
 
-/** Of bodies without end the side is that of their axis; of others, of the origin of S (PassOnSide) or of the surface
-itself (PassNear), as that of the tube of a ring. */
+/** Outward in the middle of an arc: of a circular arc the normals of its ends add up to that direction if it turns by
+little, and its tangents differ by it if it turns by up to a full turn. */
+Vec3 calcMiddleNormal(const Surface& surface, const ObstacleContact& contact) {
+    constexpr double kFullTurn = 6;  // [rad], less than 2 pi since curvatures vary
+    const Geodesic& arc = contact.geodesic;
+    if (calcTurn(contact) > kFullTurn) return shootToMiddle(surface, contact).N;
+    return arc.P.t.dot(arc.Q.t) > 0 ? Vec3(arc.P.N + arc.Q.N) : Vec3(arc.P.t - arc.Q.t);
+}
+
+/** A point over which the middle of an arc lies: that of its chord while it turns by less than half a circle. */
+Vec3 calcMiddlePoint(const Surface& surface, const ObstacleContact& contact) {
+    constexpr double kHalfTurn = 2.5;  // [rad], less than pi since curvatures vary
+    const Geodesic& arc = contact.geodesic;
+    if (calcTurn(contact) > kHalfTurn) return shootToMiddle(surface, contact).x;
+    return 0.5 * (arc.P.x + arc.Q.x);
+}
+
+/** PassNear says where outward is, PassOnSide where the middle is. */
 bool isOnSide(const PathElement& element, const ObstacleContact& contact) {
-    const Place place =
-        contact.isTouched ? findMiddle(*element.surface, contact) : Place{contact.clearance.C.p, contact.clearance.N};
-    if (std::holds_alternative<PassNear>(element.hint) && !element.isEndless)
-        return !(element.side_S.dot(place.N) < -kOnTheEdge);
-    return !(element.side_S.dot(place.p) < -kOnTheEdge * element.surface->getSize());
+    const Surface& surface = *element.surface;
+    if (std::holds_alternative<PassNear>(element.hint)) {
+        const Vec3 N = contact.isTouched ? calcMiddleNormal(surface, contact) : contact.clearance.N;
+        return !(element.side_S.dot(N) < -kOnTheEdge);
+    }
+    const Vec3 p = contact.isTouched ? calcMiddlePoint(surface, contact) : contact.clearance.C.p;
+    return !(element.side_S.dot(p) < -kOnTheEdge * surface.getSize());
 }
 
 /** The angle nearest to the hint's is off by half a turn at most; by a little more where the path's neighbors may stand

@@ -36,6 +36,9 @@ inline constexpr BandLevel kPatientBand = {0.5, 1e-6, 6000};
 inline constexpr double kFirstBandMove = 0.1;
 inline constexpr int kMaxBandMoves = 6;
 
+/** Iterations of the minimizer while contacts are inserted from the straight line: beyond that a band is cheaper. */
+inline constexpr int kMaxInsertionDescents = 12;
+
 /** Geodesics shot per element after which no further search begins: scenes that are solved need half as many. */
 inline constexpr int kMaxShotsPerElement = 20000;
 

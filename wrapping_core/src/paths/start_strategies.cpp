@@ -87,6 +87,8 @@ bool PathSearch::findPath(const PosedProblem& scene, bool isContinued, PathSolut
     if (path.wasCold) path.deviation = findThreadingDeviation(path);
     const bool isMinimum = m_bestRank == Rank::Minimum || m_bestRank == Rank::MinimumElsewhere;
     path.report.failedSteps = isMinimum ? 0 : m_failedSteps + 1;
+    if (isMinimum && m_failedSteps > 0)
+        for (ObstacleContact& contact : path.contacts) contact.yields = false;
     m_scene = nullptr;
     return isMinimum;
 }
@@ -146,13 +148,15 @@ void PathSearch::offer(Rank rank, const PathSolution& path) {
 /** Keeps the course of the path that was given, whatever the hints say. Where an obstacle has yielded to another, that
 path goes on as it is, saddle or not; and a minimum with all obstacles is tried for beside it. */
 void PathSearch::continuePrevious(PathSolution& path) {
-    const bool hasYielded = std::any_of(path.contacts.begin(), path.contacts.end(),
-                                        [](const ObstacleContact& contact) { return contact.yields; });
-    offer(judge(m_local.solve(*m_scene, path, !hasYielded), PassageRule(), hasYielded, path), path);
+    const bool hasYielded =
+        m_failedSteps > 0 && std::any_of(path.contacts.begin(), path.contacts.end(),
+                                         [](const ObstacleContact& contact) { return contact.yields; });
+    offer(judge(m_local.solve(*m_scene, path, {!hasYielded}), PassageRule(), hasYielded, path), path);
     m_isLoose = m_bestRank == Rank::MinimumElsewhere;
-    if (!hasYielded || m_bestRank == Rank::Minimum) return;
+    if (!hasYielded || m_bestRank == Rank::Minimum || !isSearchDue(m_failedSteps)) return;
     for (ObstacleContact& contact : path.contacts) contact.yields = false;
-    offer(judge(m_local.solve(*m_scene, path), PassageRule(), true, path), path);
+    const PathVerification broken = m_local.solve(*m_scene, path, {true, kMaxInsertionDescents});
+    offer(judge(broken, PassageRule(), true, path), path);
 }
 
 void PathSearch::layAlongPrevious(PathSolution& path) {
@@ -210,7 +214,7 @@ void PathSearch::solveInserted(const Route& route, PathSolution& path) {
         }
         if (!points.empty()) last = e;
     }
-    m_broken = m_local.solve(scene, path);
+    m_broken = m_local.solve(scene, path, {true, kMaxInsertionDescents});
     offer(judge(m_broken, route.threading, true, path), path);
 }
 
@@ -268,11 +272,13 @@ void PathSearch::freeBand(const Route& route, bool keepsSides, PathSolution& pat
     }
 }
 
-/** A string that rests on the route asked for, but is not one smooth path: the path next to it is the answer. */
+/** A string that rests on the route asked for, but is not one smooth path: the path next to it is the answer, or goes
+on to be, so that its length varies smoothly. */
 void PathSearch::acceptFault(PathSolution& path) {
     const StringFault fault = path.fault;
     m_best.fault = fault;
-    if (!isAtRest(fault)) return;
+    const bool goesOn = m_isContinued && m_failedSteps > 0 && m_bestRank == Rank::Stationary;
+    if (!isAtRest(fault) || goesOn) return;
     if (m_atRestRank < Rank::Stationary && fault.other >= 0) yieldInGrooves(path);
     if (m_atRestRank == Rank::None) keepContactsOfBand(path);
     goBack(m_atRest, path);
@@ -295,7 +301,7 @@ void PathSearch::yieldInGrooves(PathSolution& path) {
             path.contacts[second].isTouched = false;
             path.contacts[second].yields = true;
         }
-        const Rank rank = judge(m_local.solve(*m_scene, path, false), PassageRule(), true, path);
+        const Rank rank = judge(m_local.solve(*m_scene, path, {false}), PassageRule(), true, path);
         if (rank != Rank::Stationary) continue;
         if (m_atRestRank == Rank::Stationary && !(path.length > m_atRest.length)) continue;
         m_atRestRank = rank;

@@ -43,12 +43,16 @@ public:
     /** False where the square of an obstacle's size is 0 or infinite in double precision: no path is found there. */
     bool hasUsableSizes() const { return m_hasUsableSizes; }
 
+    /** True if a hint says of any obstacle how the path is to run about it. */
+    bool hasHints() const { return m_numHints > 0; }
+
     int getNumElements() const { return static_cast<int>(m_elements.size()); }
     const PathElement& getElement(int element) const { return m_elements[element]; }
 
 private:
     std::vector<PathElement> m_elements;
     bool m_hasUsableSizes = true;
+    int m_numHints = 0;
 };
 
 /** Where the elements of a path are: pose X_GE of each element's frame in ground, and which take part.
