@@ -103,6 +103,13 @@ public:
         const std::string outcome = classify(problem, pose, path);
         EXPECT_EQ(outcome.find("unexplained"), std::string::npos) << outcome;
         ++m_outcomes[outcome];
+        const SolveReport& report = path.report;
+        ++m_shares[std::string("from ") + getName(report.strategy) +
+                   (report.bandLevel > 0 ? " " + std::to_string(report.bandLevel) : "")];
+        if (report.usedMinimizer) ++m_shares["with the minimizer"];
+        if (report.leftSaddle) ++m_shares["off a saddle"];
+        if (report.turnedTangents) ++m_shares["with tangents reversed"];
+        if (path.status == PathStatus::Solved && !path.followsHints()) ++m_shares["solved elsewhere than asked"];
     }
     int count(const std::string& outcome) const {
         const auto at = m_outcomes.find(outcome);
@@ -112,12 +119,14 @@ public:
         std::cout << "most shots " << m_mostShots.first << " (" << m_mostShots.second << "), slowest solve "
                   << m_slowest.first << " s (" << m_slowest.second << ")\n";
         for (const auto& [outcome, number] : m_outcomes) std::cout << "  " << outcome << ": " << number << "\n";
+        for (const auto& [share, number] : m_shares) std::cout << "  " << share << ": " << number << "\n";
     }
 
 private:
     PathSolver m_solver;
     std::vector<Vec3> m_points;
     std::map<std::string, int> m_outcomes;
+    std::map<std::string, int> m_shares;  ///< of strategies, and of what the local solver had to do
     std::pair<double, std::string> m_slowest;
     std::pair<int, std::string> m_mostShots;
 };
