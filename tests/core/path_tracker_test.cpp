@@ -139,7 +139,7 @@ TEST_P(Turns, AreTheShortestWhereNothingIsForetold) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PathTracker, Turns, ::testing::Values(true, false),
-                         [](const auto& info) { return info.param ? "OfADrum" : "OfACrank"; });
+                         [](const auto& test) { return test.param ? "OfADrum" : "OfACrank"; });
 
 TEST(PathTracker, SaysThatAMotionIsTooFastToFollow) {
     Winch winch(Winch::kRadius, true);

@@ -364,7 +364,7 @@ TEST(ContactEvents, AStringThatIsLostByItsRingIsReported) {
  */
 struct AwakenedString : BareScene {
     struct Switch : SimTK::ScheduledEventHandler {
-        explicit Switch(AwakenedString& scene) : scene(scene) {}
+        explicit Switch(AwakenedString& awakened) : scene(awakened) {}
         Real getNextEventTime(const State& state, bool includeCurrentTime) const override {
             for (const Real time : {kOff, kOn})
                 if (time > state.getTime() || (includeCurrentTime && time == state.getTime())) return time;
