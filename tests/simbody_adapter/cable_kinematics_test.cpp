@@ -168,7 +168,7 @@ TEST(CableKinematics, APathThatHasLeftItsDomainBalancesAndHasItsOwnRateAndPower)
         {std::make_shared<BSplinePatch>(BSplinePatch::interpolateHeights({Vec2(-1, -1), Vec2(1, 1)}, heights))},
         Vec3(1.2, 0, -0.2));
     expectBalancedWithItsOwnRate(
-        scene, scene.makeState({SimTK::Vec3(1.2, -3, -1.3), SimTK::Vec3(0), SimTK::Vec3(1.25, 3, -1.3)}),
+        scene, scene.makeState({SimTK::Vec3(0.7, -3, -1.3), SimTK::Vec3(0), SimTK::Vec3(1.25, 3, -1.3)}),
         PathStatus::LeftDomain);
 }
 
