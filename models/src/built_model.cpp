@@ -2,6 +2,15 @@
 #include "tautline/models/model_builder.h"
 
 namespace tautline::models {
+namespace {
+
+std::vector<double> getArguments(const BuiltModel& model, const SimTK::State& state, const CoordinateCoupler& coupler) {
+    std::vector<double> q;
+    for (const std::string& name : coupler.independentCoordinates) q.push_back(model.getCoordinate(state, name));
+    return q;
+}
+
+}  // namespace
 
 SimTK::MobilizedBodyIndex BuiltModel::getBodyIndex(const std::string& name) const {
     const auto found = m_bodies.find(name);
@@ -52,12 +61,37 @@ double BuiltModel::getCoordinateSpeed(const SimTK::State& state, const std::stri
 
 void BuiltModel::applyCouplers(SimTK::State& state) const {
     for (const CoordinateCoupler& coupler : m_couplers) {
-        const double q = getCoordinate(state, coupler.independentCoordinate);
-        const double u = getCoordinateSpeed(state, coupler.independentCoordinate);
-        const ScalarFunction coupled = coupler.function.scaledBy(coupler.scaleFactor);
-        setCoordinate(state, coupler.dependentCoordinate, coupled.calcValue(q));
-        setCoordinateSpeed(state, coupler.dependentCoordinate, coupled.calcDerivative(q) * u);
+        const std::vector<double> q = getArguments(*this, state, coupler);
+        double speed = 0.0;
+        for (std::size_t i = 0; i < q.size(); ++i)
+            speed += calcCouplingSlope(state, coupler, static_cast<int>(i)) *
+                     getCoordinateSpeed(state, coupler.independentCoordinates[i]);
+        setCoordinate(state, coupler.dependentCoordinate, coupler.scaleFactor * coupler.function.calcValue(q.data()));
+        setCoordinateSpeed(state, coupler.dependentCoordinate, speed);
     }
+}
+
+double BuiltModel::calcCouplingSlope(const SimTK::State& state, const CoordinateCoupler& coupler, int i) const {
+    const std::vector<double> q = getArguments(*this, state, coupler);
+    return coupler.scaleFactor * coupler.function.calcDerivative({i}, q.data());
+}
+
+const std::string* BuiltModel::findSingularCoordinate(const SimTK::State& state) const {
+    // Sine of the angle between a motion and those before it, below which it counts as one of theirs.
+    constexpr double kLeastSine = 1e-6;
+    std::map<SimTK::MobilizedBodyIndex, std::vector<SimTK::Vec6>> motions;
+    for (const std::string& name : m_coordinateNames) {
+        const CoordinateSlot& slot = getCoordinateSlot(name);
+        const SimTK::SpatialVec column = m_matter->getMobilizedBody(slot.body).getHCol(state, slot.u);
+        SimTK::Vec6 motion;
+        motion.updSubVec<3>(0) = column[0];
+        motion.updSubVec<3>(3) = column[1];
+        const double size = motion.norm();
+        for (const SimTK::Vec6& before : motions[slot.body]) motion -= ~before * motion * before;
+        if (!(motion.norm() > kLeastSine * size)) return &name;
+        motions[slot.body].push_back(motion / motion.norm());
+    }
+    return nullptr;
 }
 
 SimTK::Vec3 BuiltModel::calcStationLocation(const SimTK::State& state, const std::string& body,

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 namespace tautline::models {
@@ -39,6 +40,10 @@ void Element::fail(const std::string& what) const {
     m_reading->source.fail(findLine(), what);
 }
 
+void Element::note(const std::string& what) const {
+    m_reading->model.notes.push_back({findLine(), what});
+}
+
 Element Element::find(const std::string& tag) {
     m_known.insert(tag);
     Element child(*m_reading, m_node.child(tag.c_str()));
@@ -66,6 +71,22 @@ Element Element::findAny(const std::vector<std::string>& tags) {
     return found;
 }
 
+Element Element::findSocket(const std::string& name) {
+    const Element socket =
+        findAny({"socket_" + name, "socket_" + name + "_connectee_name", "connector_" + name + "_connectee_name"});
+    if (socket) return socket;
+    const Element connectors = find("connectors");  // documents 30501 to 30507
+    for (Element connector : connectors.getChildren())
+        if (connector.getName() == name) return connector.find("connectee_name");
+    return socket;
+}
+
+Element Element::requireSocket(const std::string& name) {
+    const Element socket = findSocket(name);
+    if (!socket) fail(describe() + " has no socket_" + name);
+    return socket;
+}
+
 std::vector<Element> Element::getChildren() const {
     std::vector<Element> children;
     for (pugi::xml_node child : m_node.children())
@@ -91,10 +112,14 @@ double Element::parseNumber(const std::string& word) const {
     return number;
 }
 
+std::vector<std::string> Element::getWords() const {
+    std::istringstream text(getText());
+    return {std::istream_iterator<std::string>(text), {}};
+}
+
 std::vector<double> Element::getNumbers() const {
     std::vector<double> numbers;
-    std::istringstream words(getText());
-    for (std::string word; words >> word;) numbers.push_back(parseNumber(word));
+    for (const std::string& word : getWords()) numbers.push_back(parseNumber(word));
     return numbers;
 }
 
@@ -151,10 +176,11 @@ double Element::requirePositive(const std::string& tag) {
     return number;
 }
 
-void Element::skip(const std::vector<std::string>& tags, const std::string& reason) {
+void Element::skip(const std::vector<std::string>& tags, const std::string& reason, Effect effect) {
     for (const std::string& tag : tags) {
         m_known.insert(tag);
-        for (pugi::xml_node child : m_node.children(tag.c_str())) Element(*m_reading, child).skipThis(getTag(), reason);
+        for (pugi::xml_node child : m_node.children(tag.c_str()))
+            Element(*m_reading, child).skipThis(getTag(), reason, effect);
     }
 }
 
@@ -163,7 +189,7 @@ void Element::skipUnread(const std::vector<std::string>& tags, const std::string
         if (m_known.count(tag) == 0) skip({tag}, reason);
 }
 
-void Element::skipThis(const std::string& owner, const std::string& reason) const {
+void Element::skipThis(const std::string& owner, const std::string& reason, Effect effect) const {
     auto& skipped = m_reading->model.skipped;
     const std::string tag = getTag();
     const auto entry = std::find_if(skipped.begin(), skipped.end(), [&](const SkippedElements& elements) {
@@ -172,14 +198,33 @@ void Element::skipThis(const std::string& owner, const std::string& reason) cons
     if (entry != skipped.end())
         ++entry->count;
     else
-        skipped.push_back({tag, owner, reason, findLine(), 1});
+        skipped.push_back({tag, owner, reason, effect, findLine(), 1});
+}
+
+void Element::refuse(const std::string& kind, Effect effect) const {
+    const ReadingOptions& options = m_reading->options;
+    // An element without a name can be ignored by its tag.
+    for (const std::string& ignored : options.ignored)
+        if (ignored == getName() || ignored == getTag())
+            return skipThis(getOwner().getTag(), "ignored as asked", effect);
+    if (options.lengthsOnly && effect == Effect::Forces)
+        return skipThis(getOwner().getTag(), "not known; without effect on lengths", effect);
+    m_reading->unknown.push_back({kind, getTag(), getName(), getOwner().describe(), effect, "", findLine()});
+}
+
+void Element::refuseForGood(const std::string& kind, const std::string& why) const {
+    m_reading->unknown.push_back({kind, getTag(), getName(), getOwner().describe(), Effect::Motion, why, findLine()});
 }
 
 void Element::refuseUnknown() const {
-    for (const Element& child : getChildren()) {
-        if (m_known.count(child.getTag())) continue;
-        child.fail("unknown element " + child.describe() + " in " + describe());
-    }
+    for (const Element& child : getChildren())
+        if (!m_known.count(child.getTag())) child.refuse("element", Effect::Motion);
+}
+
+Element Element::getOwner() const {
+    const pugi::xml_node parent = m_node.parent();
+    const bool isList = std::string(parent.name()) == "objects" || std::string(parent.name()) == "components";
+    return {*m_reading, isList ? parent.parent() : parent};
 }
 
 }  // namespace tautline::models

@@ -12,12 +12,18 @@ in F. */
 struct JointAxes {
     /** Unit vectors. */
     std::array<SimTK::Vec3, 6> axes;
-    std::array<ScalarFunction, 6> functions;
-    /** Index into the joint's coordinates; -1: none, the function's value at 0 holds always. */
-    std::array<int, 6> coordinates;
+    std::array<MultivariateFunction, 6> functions;
+    /** The functions' arguments, as indices into the mobilities; none: the function's value at 0 holds always. */
+    std::array<std::vector<int>, 6> arguments;
+    /** For each of the joint's coordinates the mobility that it is; -1 if it moves nothing. */
+    std::vector<int> mobilities;
+    int numMobilities = 0;
 };
 
 JointAxes makeJointAxes(const Joint& joint);
+
+/** The value of a function all of whose arguments rest at 0. */
+double calcRestingValue(const MultivariateFunction& function);
 
 /** X_FM of a joint without coordinates. */
 SimTK::Transform calcFixedTransform(const JointAxes& axes);

@@ -54,32 +54,54 @@ private:
     std::vector<ScalarFunction> m_functions;
 };
 
-bool isDriven(const Joint& joint) {
-    return !joint.coordinates.empty() &&
-           std::all_of(joint.coordinates.begin(), joint.coordinates.end(),
-                       [](const Coordinate& coordinate) { return coordinate.prescribedMotion && !coordinate.locked; });
+/** A MultivariateFunction for Simbody. */
+class SimtkMultivariate : public SimTK::Function {
+public:
+    explicit SimtkMultivariate(MultivariateFunction function) : m_function(std::move(function)) {}
+
+    SimTK::Real calcValue(const SimTK::Vector& x) const override { return m_function.calcValue(&x[0]); }
+    SimTK::Real calcDerivative(const SimTK::Array_<int>& arguments, const SimTK::Vector& x) const override {
+        return m_function.calcDerivative({arguments.begin(), arguments.end()}, &x[0]);
+    }
+    int getArgumentSize() const override { return m_function.getNumArguments(); }
+    int getMaxDerivativeOrder() const override { return 2; }
+    SimtkMultivariate* clone() const override { return new SimtkMultivariate(*this); }
+
+private:
+    MultivariateFunction m_function;
+};
+
+/** Whether all mobilities of a joint are prescribed. */
+bool isDriven(const PlannedJoint& planned) {
+    const std::vector<Coordinate>& coordinates = planned.joint->coordinates;
+    for (std::size_t i = 0; i < coordinates.size(); ++i)
+        if (planned.axes.mobilities[i] >= 0 && !(coordinates[i].prescribedMotion && !coordinates[i].locked))
+            return false;
+    return planned.axes.numMobilities > 0;
 }
 
-/** scale * f(independent) - dependent, to be held at zero. */
+/** scale * f(independent...) - dependent, to be held at zero. */
 class CouplerFunction : public SimTK::Function {
 public:
     explicit CouplerFunction(const CoordinateCoupler& coupler)
         : m_function(coupler.function.scaledBy(coupler.scaleFactor)) {}
 
-    SimTK::Real calcValue(const SimTK::Vector& x) const override { return m_function.calcValue(x[0]) - x[1]; }
-    SimTK::Real calcDerivative(const SimTK::Array_<int>& components, const SimTK::Vector& x) const override {
-        bool byIndependentOnly = true;
-        for (int component : components) byIndependentOnly = byIndependentOnly && component == 0;
-        const int order = static_cast<int>(components.size());
-        if (byIndependentOnly) return m_function.calcDerivativeOfOrder(order, x[0]);
-        return order == 1 ? -1.0 : 0.0;
+    SimTK::Real calcValue(const SimTK::Vector& x) const override {
+        return m_function.calcValue(&x[0]) - x[getDependent()];
     }
-    int getArgumentSize() const override { return 2; }
+    SimTK::Real calcDerivative(const SimTK::Array_<int>& components, const SimTK::Vector& x) const override {
+        const bool byDependent = std::count(components.begin(), components.end(), getDependent()) > 0;
+        if (byDependent) return components.size() == 1 ? -1.0 : 0.0;
+        return m_function.calcDerivative({components.begin(), components.end()}, &x[0]);
+    }
+    int getArgumentSize() const override { return getDependent() + 1; }
     int getMaxDerivativeOrder() const override { return 2; }
     CouplerFunction* clone() const override { return new CouplerFunction(*this); }
 
 private:
-    ScalarFunction m_function;
+    int getDependent() const { return m_function.getNumArguments(); }
+
+    MultivariateFunction m_function;
 };
 
 SimTK::MassProperties makeMassProperties(const Body& body) {
@@ -96,20 +118,17 @@ MobilizedBody addFunctionBased(const PlannedJoint& planned, MobilizedBody& inboa
     SimTK::Array_<SimTK::Array_<int>> arguments;
     SimTK::Array_<SimTK::Vec3> axes;
     for (std::size_t i = 0; i < 6; ++i) {
-        const ScalarFunction& function = planned.axes.functions[i];
-        const int coordinate = planned.axes.coordinates[i];
+        const MultivariateFunction& function = planned.axes.functions[i];
+        const std::vector<int>& mobilities = planned.axes.arguments[i];
         axes.push_back(planned.axes.axes[i]);
-        arguments.push_back(SimTK::Array_<int>());
-        if (coordinate < 0) {
-            functions.push_back(new SimTK::Function::Constant(function.calcValue(0.0), 0));
-        } else {
-            arguments.back().push_back(coordinate);
-            functions.push_back(new SimtkFunction(function));
-        }
+        arguments.push_back(SimTK::Array_<int>(mobilities.begin(), mobilities.end()));
+        if (mobilities.empty())
+            functions.push_back(new SimTK::Function::Constant(calcRestingValue(function), 0));
+        else
+            functions.push_back(new SimtkMultivariate(function));
     }
-    const auto mobilities = static_cast<int>(planned.joint->coordinates.size());
-    return MobilizedBody::FunctionBased(inboard, inboardFrame, body, outboardFrame, mobilities, functions, arguments,
-                                        axes, direction);
+    return MobilizedBody::FunctionBased(inboard, inboardFrame, body, outboardFrame, planned.axes.numMobilities,
+                                        functions, arguments, axes, direction);
 }
 
 MobilizedBody addMobilizer(const PlannedJoint& planned, MobilizedBody& inboard) {
@@ -117,11 +136,12 @@ MobilizedBody addMobilizer(const PlannedJoint& planned, MobilizedBody& inboard) 
     const SimTK::Body::Rigid body(makeMassProperties(*planned.outboardBody));
     SimTK::Transform X_PF = toTransform(joint.parentOffset);
     SimTK::Transform X_CM = toTransform(joint.childOffset);
-    if (joint.coordinates.empty()) X_PF = X_PF * calcFixedTransform(planned.axes);
+    const bool moves = planned.axes.numMobilities > 0;
+    if (!moves) X_PF = X_PF * calcFixedTransform(planned.axes);
     const SimTK::Transform& inboardFrame = planned.reversed ? X_CM : X_PF;
     const SimTK::Transform& outboardFrame = planned.reversed ? X_PF : X_CM;
     const auto direction = planned.reversed ? MobilizedBody::Reverse : MobilizedBody::Forward;
-    if (joint.coordinates.empty()) return MobilizedBody::Weld(inboard, inboardFrame, body, outboardFrame);
+    if (!moves) return MobilizedBody::Weld(inboard, inboardFrame, body, outboardFrame);
     if (joint.type == JointType::Pin) return MobilizedBody::Pin(inboard, inboardFrame, body, outboardFrame, direction);
     if (joint.type == JointType::Slider)
         return MobilizedBody::Slider(inboard, inboardFrame, body, outboardFrame, direction);
@@ -144,15 +164,22 @@ public:
         MobilizedBody& inboard = m_matter.updMobilizedBody(m_built.m_bodies.at(inboardName));
         const SimTK::MobilizedBodyIndex index = addMobilizer(planned, inboard).getMobilizedBodyIndex();
         m_built.m_bodies[planned.outboardBody->name] = index;
-        for (std::size_t i = 0; i < joint.coordinates.size(); ++i)
-            addCoordinate(joint.coordinates[i], index, static_cast<int>(i), isDriven(joint));
-        if (isDriven(joint)) driveMobilizer(joint, index);
+        for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
+            const int mobility = planned.axes.mobilities[i];
+            if (mobility < 0)
+                addCoordinate(joint.coordinates[i], addIdleBody(), 0, false);
+            else
+                addCoordinate(joint.coordinates[i], index, mobility, isDriven(planned));
+        }
+        if (isDriven(planned)) driveMobilizer(planned, index);
     }
 
     void addConstraint(const CoordinateCoupler& coupler) {
         SimTK::Array_<SimTK::MobilizedBodyIndex> bodies;
         SimTK::Array_<SimTK::MobilizerQIndex> coordinates;
-        for (const auto& name : {coupler.independentCoordinate, coupler.dependentCoordinate}) {
+        std::vector<std::string> names = coupler.independentCoordinates;
+        names.push_back(coupler.dependentCoordinate);
+        for (const std::string& name : names) {
             const auto& slot = m_built.getCoordinateSlot(name);
             bodies.push_back(slot.body);
             coordinates.push_back(slot.q);
@@ -167,6 +194,25 @@ public:
         SimTK::Constraint::Ball(body1, toSimTK(points.location1), body2, toSimTK(points.location2));
     }
 
+    void addConstraint(const WeldConstraint& weld) {
+        MobilizedBody& body1 = m_matter.updMobilizedBody(m_built.getBodyIndex(weld.body1));
+        MobilizedBody& body2 = m_matter.updMobilizedBody(m_built.getBodyIndex(weld.body2));
+        SimTK::Constraint::Weld(body1, toTransform(weld.X_B1F), body2, toTransform(weld.X_B2F));
+    }
+
+    void addConstraint(const PointOnLineConstraint& line) {
+        MobilizedBody& lineBody = m_matter.updMobilizedBody(m_built.getBodyIndex(line.lineBody));
+        MobilizedBody& follower = m_matter.updMobilizedBody(m_built.getBodyIndex(line.followerBody));
+        SimTK::Constraint::PointOnLine(lineBody, SimTK::UnitVec3(toSimTK(line.direction)), toSimTK(line.pointOnLine),
+                                       follower, toSimTK(line.follower));
+    }
+
+    void addConstraint(const ConstantDistanceConstraint& rod) {
+        MobilizedBody& body1 = m_matter.updMobilizedBody(m_built.getBodyIndex(rod.body1));
+        MobilizedBody& body2 = m_matter.updMobilizedBody(m_built.getBodyIndex(rod.body2));
+        SimTK::Constraint::Rod(body1, toSimTK(rod.location1), body2, toSimTK(rod.location2), rod.distance);
+    }
+
     /** The names in the order of the file, not of the tree. */
     BuiltModel finish(const ModelDescription& model) {
         for (const Joint& joint : model.joints)
@@ -175,9 +221,20 @@ public:
     }
 
 private:
-    void driveMobilizer(const Joint& joint, SimTK::MobilizedBodyIndex body) {
+    /** A unit mass on a rail, away from gravity, that is a coordinate of a joint which does not use it: conditions,
+    couplers and the user may. */
+    SimTK::MobilizedBodyIndex addIdleBody() {
+        const SimTK::Body::Rigid body(SimTK::MassProperties(1.0, SimTK::Vec3(0), SimTK::Inertia(1.0)));
+        MobilizedBody::Slider idle(m_matter.updGround(), SimTK::Transform(), body, SimTK::Transform());
+        m_built.m_idleBodies.push_back(idle.getMobilizedBodyIndex());
+        return idle.getMobilizedBodyIndex();
+    }
+
+    void driveMobilizer(const PlannedJoint& planned, SimTK::MobilizedBodyIndex body) {
         std::vector<ScalarFunction> functions;
-        for (const Coordinate& coordinate : joint.coordinates) functions.push_back(*coordinate.prescribedMotion);
+        const std::vector<Coordinate>& coordinates = planned.joint->coordinates;
+        for (std::size_t i = 0; i < coordinates.size(); ++i)
+            if (planned.axes.mobilities[i] >= 0) functions.push_back(*coordinates[i].prescribedMotion);
         SimTK::Motion::Custom(m_matter.updMobilizedBody(body), new DrivenMotion(std::move(functions)));
     }
 
@@ -219,8 +276,10 @@ BuiltModel buildMultibody(const ModelDescription& model, SimTK::SimbodyMatterSub
 }
 
 SimTK::Force::Gravity addGravity(const ModelDescription& model, SimTK::GeneralForceSubsystem& forces,
-                                 const SimTK::SimbodyMatterSubsystem& matter) {
-    return SimTK::Force::Gravity(forces, matter, toSimTK(model.gravity));
+                                 const BuiltModel& built) {
+    SimTK::Force::Gravity gravity(forces, built.getMatter(), toSimTK(model.gravity));
+    for (SimTK::MobilizedBodyIndex idle : built.getIdleBodies()) gravity.setDefaultBodyIsExcluded(idle, true);
+    return gravity;
 }
 
 }  // namespace tautline::models

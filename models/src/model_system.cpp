@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <set>
 
+#include "body_forces.h"
+#include "path_force_laws.h"
 #include "tautline/models/path_points.h"
 #include "tautline/simbody/conversions.h"
-#include "wrap_surface.h"
 
 namespace tautline::models {
 namespace {
@@ -74,20 +75,45 @@ void addPoint(Cable& cable, const PathPoint& point, const BuiltModel& model) {
         cable.addViaPoint(body, toSimTK(point.location), point.name);
 }
 
+/** An object that is bound to several segments is told apart by a number. */
+std::string makeObstacleName(const ModelDescription& description, const std::vector<BoundWrap>& wraps,
+                             std::size_t index) {
+    const std::string& name = description.wrapObjects[wraps[index].object].name;
+    const auto isSame = [&](const BoundWrap& wrap) { return description.wrapObjects[wrap.object].name == name; };
+    const auto before = std::count_if(wraps.begin(), wraps.begin() + static_cast<std::ptrdiff_t>(index), isSame);
+    return before == 0 ? name : name + "_" + std::to_string(before + 1);
+}
+
+/** Calls visit(owner) for all forces with paths. */
+template <class Visitor>
+void forEachOwner(const ModelDescription& description, Visitor visit) {
+    for (const Muscle& muscle : description.muscles) visit(muscle);
+    for (const PathSpring& spring : description.springs) visit(spring);
+    for (const PathForce& force : description.pathForces) visit(force);
+}
+
 }  // namespace
 
 ModelSystem::ModelSystem(const ModelDescription& description)
     : m_matter(m_system), m_forces(m_system), m_cables(m_system), m_model(buildMultibody(description, m_matter)) {
-    addGravity(description, m_forces, m_matter);
+    addGravity(description, m_forces, m_model);
+    addBodyForces(description, {m_system, m_forces, m_contacts, m_model});
     const BindingSystem binding(description);
-    for (const ModelConstraint& constraint : description.constraints)
-        if (const auto* coupler = std::get_if<CoordinateCoupler>(&constraint)) m_couplers.push_back(*coupler);
-    for (const models::Muscle& muscle : description.muscles) {
-        const std::vector<BoundWrap> wraps = bindWraps(description, muscle.path, binding.model, binding.state);
-        addMuscle(description, muscle, wraps);
-    }
-    for (const PathSpring& spring : description.springs)
-        addSpring(description, spring, bindWraps(description, spring.path, binding.model, binding.state));
+    std::vector<const MusclePath*> paths;
+    forEachOwner(description, [&](const auto& owner) { paths.push_back(&owner.path); });
+    const auto wraps = bindWraps(description, paths, binding.model, binding.state);
+    std::size_t next = 0;
+    forEachOwner(description, [&](const auto& owner) { addOwner(description, owner, wraps[next++]); });
+}
+
+template <class Owner>
+void ModelSystem::addOwner(const ModelDescription& description, const Owner& owner,
+                           const std::vector<BoundWrap>& wraps) {
+    if (owner.path.functions)
+        m_functionPaths.push_back(
+            {owner.name, "/forceset/" + owner.name, FunctionBasedPath(*owner.path.functions, m_model)});
+    else
+        add(description, owner, wraps);
 }
 
 Cable ModelSystem::addCable(const ModelDescription& description, const std::string& kind, const std::string& name,
@@ -99,34 +125,49 @@ Cable ModelSystem::addCable(const ModelDescription& description, const std::stri
     for (std::size_t p = 0; p + 1 < points.size(); ++p) {
         if (p > 0) addPoint(cable, points[p], m_model);
         for (; next < wraps.size() && wraps[next].segment == p; ++next) {
-            const WrapObject& object = description.wrapObjects[path.wraps[wraps[next].wrap].wrapObject];
-            cable.addObstacle(m_model.getBody(object.body), toTransform(object.X_BW), makeSurface(object),
-                              wraps[next].hint_W, object.name);
+            const WrapObject& object = description.wrapObjects[wraps[next].object];
+            cable.addObstacle(m_model.getBody(object.body), toTransform(object.X_BW), wraps[next].surface,
+                              wraps[next].hint_W, makeObstacleName(description, wraps, next));
         }
     }
     return cable;
 }
 
-void ModelSystem::addMuscle(const ModelDescription& description, const models::Muscle& muscle,
-                            const std::vector<BoundWrap>& wraps) {
+void ModelSystem::add(const ModelDescription& description, const models::Muscle& muscle,
+                      const std::vector<BoundWrap>& wraps) {
     MuscleSlot slot;
-    slot.name = muscle.name, slot.path = "/forceset/" + muscle.name, slot.wraps = wraps;
+    slot.name = muscle.name;
+    slot.path = "/forceset/" + muscle.name;
+    slot.wraps = wraps;
     slot.cable = addCable(description, "muscle", muscle.name, muscle.path, wraps);
-    slot.start = makePathStart(muscle.path, wraps, slot.cable);
+    slot.start = makePathStart(wraps, slot.cable);
     slot.muscle = Muscle(m_forces, slot.cable, muscle.model);
     if (!muscle.appliesForce) slot.muscle.setDisabledByDefault(true);
     m_muscles.push_back(std::move(slot));
 }
 
-void ModelSystem::addSpring(const ModelDescription& description, const PathSpring& spring,
-                            const std::vector<BoundWrap>& wraps) {
+void ModelSystem::add(const ModelDescription& description, const PathSpring& spring,
+                      const std::vector<BoundWrap>& wraps) {
     SpringSlot slot;
     slot.name = spring.name, slot.path = "/forceset/" + spring.name, slot.wraps = wraps;
     slot.cable = addCable(description, "path spring", spring.name, spring.path, wraps);
-    slot.start = makePathStart(spring.path, wraps, slot.cable);
+    slot.start = makePathStart(wraps, slot.cable);
     slot.spring = ElasticStringForce(m_forces, slot.cable, spring.restingLength, spring.stiffness, spring.dissipation);
     if (!spring.appliesForce) slot.spring.setDisabledByDefault(true);
     m_springs.push_back(std::move(slot));
+}
+
+void ModelSystem::add(const ModelDescription& description, const PathForce& force,
+                      const std::vector<BoundWrap>& wraps) {
+    PathForceSlot slot;
+    slot.name = force.name;
+    slot.path = "/forceset/" + force.name;
+    slot.wraps = wraps;
+    slot.cable = addCable(description, force.type, force.name, force.path, wraps);
+    slot.start = makePathStart(wraps, slot.cable);
+    slot.force = makePathForce(m_forces, slot.cable, force, findControl(description, force.name));
+    if (!force.appliesForce) slot.force.setDisabledByDefault(true);
+    m_pathForces.push_back(std::move(slot));
 }
 
 std::vector<ModelSystem::PathView> ModelSystem::getPaths() const {
@@ -135,6 +176,8 @@ std::vector<ModelSystem::PathView> ModelSystem::getPaths() const {
         paths.push_back({slot.name, slot.path, slot.cable, slot.muscle, slot.wraps, slot.start});
     for (const SpringSlot& slot : m_springs)
         paths.push_back({slot.name, slot.path, slot.cable, slot.spring, slot.wraps, slot.start});
+    for (const PathForceSlot& slot : m_pathForces)
+        paths.push_back({slot.name, slot.path, slot.cable, slot.force, slot.wraps, slot.start});
     return paths;
 }
 
@@ -150,6 +193,14 @@ std::vector<MuscleEquilibrium> ModelSystem::equilibrateMuscles(SimTK::State& sta
     std::vector<MuscleEquilibrium> found;
     for (const MuscleSlot& slot : m_muscles) found.push_back(slot.muscle.equilibrate(state));
     return found;
+}
+
+void ModelSystem::requireRegularPose(const SimTK::State& state) const {
+    const std::string* singular = m_model.findSingularCoordinate(state);
+    if (!singular) return;
+    throw ModelError("coordinate '" + *singular + "' is at " + std::to_string(m_model.getCoordinate(state, *singular)) +
+                     " where it moves nothing that other coordinates of its joint do not move, or nothing at all: a "
+                     "simulation cannot start there");
 }
 
 double ModelSystem::calcMomentArm(const SimTK::State& state, const Cable& cable, const std::string& coordinate) const {
@@ -169,11 +220,11 @@ std::vector<double> ModelSystem::calcMomentArms(const SimTK::State& state, const
     std::vector<double> arms;
     for (const std::string& coordinate : m_model.getCoordinateNames()) {
         double arm = getForce(coordinate);
-        for (const CoordinateCoupler& coupler : m_couplers) {
-            if (coupler.independentCoordinate != coordinate) continue;
-            const double q = m_model.getCoordinate(state, coordinate);
-            arm += coupler.scaleFactor * coupler.function.calcDerivative(q) * getForce(coupler.dependentCoordinate);
-        }
+        for (const CoordinateCoupler& coupler : m_model.getCouplers())
+            for (std::size_t i = 0; i < coupler.independentCoordinates.size(); ++i)
+                if (coupler.independentCoordinates[i] == coordinate)
+                    arm += m_model.calcCouplingSlope(state, coupler, static_cast<int>(i)) *
+                           getForce(coupler.dependentCoordinate);
         arms.push_back(arm);
     }
     return arms;

@@ -19,7 +19,7 @@ constexpr double kLeastAxisAngle = 1e-5;
 
 /** Joints without motion need no proper axes: they become welds. */
 void checkAxes(const ModelDescription& model, const PlannedJoint& planned) {
-    if (planned.joint->coordinates.empty()) return;
+    if (planned.axes.numMobilities == 0) return;
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = i + 1; j < (i < 3 ? 3u : 6u); ++j) {
             const SimTK::Vec3 product = planned.axes.axes[i] % planned.axes.axes[j];
@@ -73,7 +73,7 @@ void checkMasses(const ModelDescription& model, const std::vector<PlannedJoint>&
         const Joint& joint = *planned->joint;
         const double mass = carried[planned->outboardBody->name] + planned->outboardBody->mass;
         carried[planned->reversed ? joint.childBody : joint.parentBody] += mass;
-        if (mass == 0.0 && !joint.coordinates.empty()) {
+        if (mass == 0.0 && planned->axes.numMobilities > 0) {
             fail(model, planned->outboardBody->line,
                  "body '" + planned->outboardBody->name + "' moves by joint '" + joint.name +
                      "', but neither it nor what hangs on it has mass");
@@ -90,18 +90,23 @@ void requireBody(const ModelDescription& model, int line, const std::string& nam
 }
 
 /** The reader has checked this; a description may also be made by hand. */
-void checkConstraints(const ModelDescription& model) {
-    for (const ModelConstraint& constraint : model.constraints) {
-        if (const auto* coupler = std::get_if<CoordinateCoupler>(&constraint)) {
-            requireCoordinate(model, coupler->line, coupler->independentCoordinate);
-            requireCoordinate(model, coupler->line, coupler->dependentCoordinate);
-        } else {
-            const auto& points = std::get<PointConstraint>(constraint);
-            requireBody(model, points.line, points.body1);
-            requireBody(model, points.line, points.body2);
-        }
+struct ConstraintCheck {
+    const ModelDescription& model;
+
+    void operator()(const CoordinateCoupler& coupler) const {
+        for (const std::string& name : coupler.independentCoordinates) requireCoordinate(model, coupler.line, name);
+        requireCoordinate(model, coupler.line, coupler.dependentCoordinate);
     }
-}
+    void operator()(const PointOnLineConstraint& constraint) const {
+        requireBody(model, constraint.line, constraint.lineBody);
+        requireBody(model, constraint.line, constraint.followerBody);
+    }
+    template <class Constraint>
+    void operator()(const Constraint& constraint) const {
+        requireBody(model, constraint.line, constraint.body1);
+        requireBody(model, constraint.line, constraint.body2);
+    }
+};
 
 }  // namespace
 
@@ -114,7 +119,7 @@ std::vector<PlannedJoint> planMultibody(const ModelDescription& model) {
     }
     checkThatAllBodiesHang(model, reached);
     checkMasses(model, plan);
-    checkConstraints(model);
+    for (const ModelConstraint& constraint : model.constraints) std::visit(ConstraintCheck{model}, constraint);
     return plan;
 }
 

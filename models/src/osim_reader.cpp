@@ -6,17 +6,19 @@
 
 #include "read_bodies.h"
 #include "read_constraints.h"
+#include "read_contact_geometry.h"
+#include "read_controllers.h"
 #include "read_forces.h"
 #include "read_joints.h"
+#include "read_paths.h"
 #include "read_wrap_objects.h"
+#include "tautline/models/function_based_path.h"
 
 namespace tautline::models {
 namespace {
 
-/** The last version with joints inside bodies, and those of the present layout that are known. */
-constexpr int kLastOldVersion = 30500;
-constexpr int kFirstNewVersion = 40000;
-constexpr int kLastNewVersion = 40600;
+/** The newest document version that is known. */
+constexpr int kLastVersion = 40600;
 
 /** Along -y, of a model that says nothing about it [m/s^2]. */
 constexpr double kDefaultGravity = 9.80665;
@@ -25,40 +27,39 @@ int readVersion(const Element& document, const std::string& attribute) {
     int version = 0;
     std::istringstream text(attribute);
     if (!(text >> version) || !text.eof()) document.fail("the document version '" + attribute + "' is not a number");
-    if (version > kLastNewVersion) {
-        document.fail("document version " + attribute + " is newer than " + std::to_string(kLastNewVersion) +
+    if (version > kLastVersion) {
+        document.fail("document version " + attribute + " is newer than " + std::to_string(kLastVersion) +
                       ", the newest that is known");
     }
-    if (version > kLastOldVersion && version < kFirstNewVersion)
-        document.fail("document version " + attribute + " is an interim layout that is not read");
     return version;
 }
 
-void checkUnits(Element& model, const std::string& tag, const std::vector<std::string>& accepted) {
+/** The label of the units is only a label to OpenSim, too: it computes with the numbers as they are. */
+void readUnits(Element& model, const std::string& tag, const std::vector<std::string>& accepted) {
     const Element units = model.find(tag);
     if (!units) return;
     for (const std::string& name : accepted)
         if (units.getText() == name) return;
-    units.fail(tag + " are '" + units.getText() + "' instead of '" + accepted[0] + "'");
-}
-
-/** Sets whose members would act on the motion, and of which none is known. */
-void refuseMembers(Element& model, const std::string& setTag, const std::string& what) {
-    Element set = model.find(setTag);
-    if (!set) return;
-    for (const Element& member : set.getSetMembers()) member.fail("unknown " + what + " " + member.describe());
-    set.skipThis("Model", "empty");
+    units.note(tag + " are '" + units.getText() + "'; the numbers are taken for " + accepted[0] + ", as OpenSim does");
 }
 
 void collectComponents(Element& model, BodyParts& parts) {
-    for (const char* tag : {"ComponentSet", "components"}) {
+    if (Element set = model.find("ComponentSet"))
+        for (const Element& member : set.getSetMembers()) addComponent(member, "/componentset", parts);
+    if (const Element list = model.find("components"))
+        for (const Element& member : list.getChildren()) addComponent(member, "", parts);
+}
+
+/** Constraints and forces between two frames may own them. */
+void collectOwnedFrames(Element& model, BodyParts& parts) {
+    for (const auto& [tag, path] :
+         {std::pair("ConstraintSet", "/constraintset/"), std::pair("ForceSet", "/forceset/")}) {
         Element set = model.find(tag);
         if (!set) continue;
-        const bool isSet = std::string(tag) == "ComponentSet";
-        for (const Element& member : isSet ? set.getSetMembers() : set.getChildren()) {
-            if (member.getTag() != "PhysicalOffsetFrame") member.fail("unknown component " + member.describe());
-            addOffsetFrame(member, isSet ? "/componentset" : "", parts);
-        }
+        Element members = set.find("objects");
+        for (Element& owner : members.getChildren())
+            if (const Element frames = owner.find("frames"))
+                for (const Element& frame : frames.getChildren()) addComponent(frame, path + owner.getName(), parts);
     }
 }
 
@@ -66,7 +67,6 @@ void skipWithoutEffect(Element& model) {
     model.skip({"defaults"}, "defaults are no part of the model");
     model.skip({"credits", "publications", "ModelVisualPreferences", "FrameGeometry"}, "says nothing about the motion");
     model.skip({"MarkerSet", "ProbeSet"}, "only measures the motion");
-    model.skip({"ContactGeometrySet"}, "acts only through contact forces, which are refused");
     model.skip({"assembly_accuracy"}, "the poses are set, not assembled");
 }
 
@@ -74,44 +74,110 @@ void readModel(Element& element) {
     ModelDescription& model = element.updReading().model;
     model.name = element.getName();
     model.gravity = element.getVec3Or("gravity", Vec3(0, -kDefaultGravity, 0));
-    checkUnits(element, "length_units", {"meters", "m"});
-    checkUnits(element, "force_units", {"N", "newtons", "Newtons"});
+    readUnits(element, "length_units", {"meters", "m", "Unassigned", ""});
+    readUnits(element, "force_units", {"N", "newtons", "Newtons", "Unassigned", ""});
     BodyParts parts;
     readBodies(element, parts);
     collectJoints(element, parts);
     collectComponents(element, parts);
+    collectOwnedFrames(element, parts);
     readJoints(parts);
+    repairMasslessEnds(model);
     readWrapObjects(parts);
     readConstraints(element, parts.frames);
+    readContactGeometries(element, parts.frames);
     readForces(element, parts.frames);
-    refuseMembers(element, "ControllerSet", "controller");
+    readControllers(element);
     skipWithoutEffect(element);
     element.refuseUnknown();
 }
 
+/** What leaving an element out would change. */
+std::string describeEffect(const UnknownElement& element) {
+    if (!element.whyNeeded.empty()) return element.whyNeeded;
+    switch (element.effect) {
+        case Effect::Forces:
+            return "forces would change without it";
+        case Effect::Motion:
+            return "poses, lengths and forces may change without it";
+        case Effect::None:
+            break;
+    }
+    return "nothing would change without it";
+}
+
+/** A line for each element. */
+std::string listUnknown(const std::string& fileName, const std::vector<UnknownElement>& elements) {
+    std::string list;
+    for (const UnknownElement& element : elements) {
+        const std::string name = element.name.empty() ? "" : " '" + element.name + "'";
+        const std::string what = "unknown " + element.kind + " " + element.type + name + " in " + element.owner + ": " +
+                                 describeEffect(element);
+        list += (list.empty() ? "" : "\n") + std::string(ModelError(fileName, element.line, what).what());
+    }
+    return list;
+}
+
+std::string readText(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream || std::filesystem::is_directory(file)) throw ModelError(file.string() + ": the file cannot be read");
+    return text.str();
+}
+
 }  // namespace
 
-ModelDescription readOsimText(std::string_view text, const std::string& fileName) {
+UnknownElementsError::UnknownElementsError(const std::string& fileName, std::vector<UnknownElement> elements,
+                                           const std::string& andThen)
+    : ModelError(listUnknown(fileName, elements) + (andThen.empty() ? "" : "\n" + andThen)),
+      m_elements(std::move(elements)) {}
+
+ModelDescription readOsimText(std::string_view text, const std::string& fileName, const ReadingOptions& options) {
     const XmlSource source(text, fileName);
     ModelDescription model;
     model.fileName = fileName;
-    Reading reading{source, model};
+    Reading reading{source, options, model, {}};
     Element document(reading, source.getRoot());
     if (document.getTag() != "OpenSimDocument")
         document.fail("the document is a " + document.getTag() + ", not an OpenSimDocument");
     model.documentVersion = readVersion(document, source.getRoot().attribute("Version").value());
     Element element = document.require("Model");
     document.refuseUnknown();
-    readModel(element);
+    try {
+        readModel(element);
+    } catch (const ModelError& error) {
+        if (reading.unknown.empty()) throw;
+        throw UnknownElementsError(fileName, reading.unknown, error.what());
+    }
+    if (!reading.unknown.empty()) throw UnknownElementsError(fileName, reading.unknown);
     return model;
 }
 
-ModelDescription readOsimFile(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream || std::filesystem::is_directory(file)) throw ModelError(file.string() + ": the file cannot be read");
-    return readOsimText(text.str(), file.string());
+ModelDescription readOsimFile(const std::filesystem::path& file, const ReadingOptions& options) {
+    return readOsimText(readText(file), file.string(), options);
+}
+
+std::vector<OwnedPathFunctions> readFunctionBasedPaths(const std::filesystem::path& file,
+                                                       const ModelDescription& model) {
+    const std::string text = readText(file);
+    const XmlSource source(text, file.string());
+    const ReadingOptions options;
+    ModelDescription known = model;
+    Reading reading{source, options, known, {}};
+    Element document(reading, source.getRoot());
+    Element set = document.findAny({"Set_FunctionBasedPath_", "FunctionBasedPathSet"});
+    if (!set) document.fail("the document has no set of FunctionBasedPaths");
+    std::vector<OwnedPathFunctions> paths;
+    for (const Element& member : set.getSetMembers()) {
+        if (member.getTag() == "FunctionBasedPath")
+            paths.push_back(
+                {member.getName(), *readPath(member, "'" + member.getName() + "'", FrameTable()).functions});
+        else
+            member.refuse("path", Effect::Motion);
+    }
+    if (!reading.unknown.empty()) throw UnknownElementsError(file.string(), reading.unknown);
+    return paths;
 }
 
 }  // namespace tautline::models

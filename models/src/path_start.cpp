@@ -14,12 +14,12 @@ GeodesicStart makeStart(const Surface& surface, const WrapStart& given) {
 
 }  // namespace
 
-PathStart makePathStart(const MusclePath& path, const std::vector<BoundWrap>& wraps, const Cable& cable) {
+PathStart makePathStart(const std::vector<BoundWrap>& wraps, const Cable& cable) {
     PathStart start;
     std::size_t next = 0;
     for (CableElementIndex e(0); e < cable.getNumElements(); ++e) {
         if (!cable.isObstacle(e)) continue;
-        const std::optional<WrapStart>& given = path.wraps[wraps[next++].wrap].start;
+        const std::optional<WrapStart>& given = wraps[next++].start;
         if (!given) continue;
         start.resize(static_cast<std::size_t>(cable.getNumElements()));
         start[static_cast<std::size_t>(e)] = makeStart(*cable.getSurface(e), *given);

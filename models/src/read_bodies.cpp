@@ -2,6 +2,9 @@
 #include "read_bodies.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
 
 namespace tautline::models {
 namespace {
@@ -21,12 +24,32 @@ std::array<double, 6> readInertia(Element& body) {
     return inertia;
 }
 
-/** No body has a principal moment greater than the sum of the other two, nor a negative one. */
-void checkInertia(const Element& body, const std::array<double, 6>& inertia) {
+/** No body has a moment of inertia greater than the sum of the other two, nor a negative one, nor a product of inertia
+greater than half the moment about the third axis. */
+bool isPossible(const std::array<double, 6>& inertia) {
     const double sum = inertia[0] + inertia[1] + inertia[2];
-    for (std::size_t i = 0; i < 3; ++i) {
-        const bool possible = inertia[i] >= 0.0 && 2 * inertia[i] <= sum * (1 + kInertiaTolerance);
-        if (!possible) body.fail("impossible moments of inertia of " + body.describe());
+    const double room = sum * kInertiaTolerance;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (inertia[i] < 0.0 || 2 * inertia[i] > sum + room) return false;
+    // The products are xy, xz, yz: each goes with the axis that it does not name.
+    for (std::size_t i = 0; i < 3; ++i)
+        if (2 * std::abs(inertia[3 + i]) > inertia[2 - i] + room) return false;
+    return true;
+}
+
+/** As OpenSim's Body does: a body without mass has no inertia, and one whose inertia no body can have is taken for a
+sphere with the root mean square of its moments. */
+void repairInertia(const Element& element, Body& body) {
+    auto& inertia = body.inertia;
+    if (body.mass == 0.0) {
+        if (std::any_of(inertia.begin(), inertia.end(), [](double value) { return value != 0.0; }))
+            element.note(element.describe() + " has no mass, so its inertia is taken as zero");
+        inertia.fill(0.0);
+    } else if (!isPossible(inertia)) {
+        const double moment = Vec3(inertia[0], inertia[1], inertia[2]).norm() / std::sqrt(3.0);
+        inertia = {moment, moment, moment, 0.0, 0.0, 0.0};
+        element.note("no body can have the moments of inertia of " + element.describe() +
+                     "; it is taken for a sphere of " + std::to_string(moment) + " kg m^2");
     }
 }
 
@@ -34,19 +57,15 @@ void readMassProperties(Element& element, Body& body) {
     const Element mass = element.require("mass");
     body.mass = mass.getNumber();
     if (body.mass < 0.0) mass.fail("negative mass " + mass.getText() + " of " + element.describe());
-    body.massCenter = element.require("mass_center").getVec3();
+    body.massCenter = element.getVec3Or("mass_center", Vec3::Zero());
     body.inertia = readInertia(element);
-    checkInertia(element, body.inertia);
+    repairInertia(element, body);
 }
 
 void readComponents(Element& owner, const std::string& path, BodyParts& parts) {
     const Element components = owner.find("components");
     if (!components) return;
-    for (const Element& component : components.getChildren()) {
-        if (component.getTag() != "PhysicalOffsetFrame")
-            component.fail("unknown component " + component.describe() + " of " + owner.describe());
-        addOffsetFrame(component, path, parts);
-    }
+    for (const Element& component : components.getChildren()) addComponent(component, path, parts);
 }
 
 /** What the ground and the other bodies have in common. */
@@ -54,7 +73,8 @@ void readFrameParts(Element& element, const std::string& path, BodyParts& parts)
     parts.wrapOwners.push_back({element, path});
     readComponents(element, path, parts);
     element.acceptTag("WrapObjectSet");
-    element.skip({"FrameGeometry", "frame_geometry", "attached_geometry", "VisibleObject", "geometry_files"},
+    element.skip({"FrameGeometry", "frame_geometry", "attached_geometry", "VisibleObject", "geometry_files", "geometry",
+                  "GeometrySet", "use_default_geometry"},
                  "only drawn");
     element.refuseUnknown();
 }
@@ -91,10 +111,43 @@ void readBody(Element element, BodyParts& parts) {
 
 }  // namespace
 
-void addOffsetFrame(const Element& frame, const std::string& ownerPath, BodyParts& parts) {
-    const std::string path = ownerPath + "/" + frame.getRequiredName();
-    parts.frames.addOffsetFrame(path, frame);
-    parts.wrapOwners.push_back({frame, path});
+void addComponent(const Element& component, const std::string& ownerPath, BodyParts& parts) {
+    using Adder = void (*)(const std::string&, const Element&, BodyParts&);
+    static const std::map<std::string, Adder> kAdders{
+        {"PhysicalOffsetFrame",
+         [](const std::string& path, const Element& frame, BodyParts& to) {
+             to.frames.addOffsetFrame(path, frame);
+             to.wrapOwners.push_back({frame, path});
+         }},
+        {"StationDefinedFrame",
+         [](const std::string& path, const Element& frame, BodyParts& to) {
+             to.frames.addStationFrame(path, frame);
+             to.wrapOwners.push_back({frame, path});
+         }},
+        {"Station",
+         [](const std::string& path, const Element& station, BodyParts& to) { to.frames.addStation(path, station); }},
+        {"Marker",
+         [](const std::string& path, const Element& marker, BodyParts& to) { to.frames.addStation(path, marker); }}};
+    const auto adder = kAdders.find(component.getTag());
+    if (adder == kAdders.end()) return component.refuse("component", Effect::Motion);
+    adder->second(ownerPath + "/" + component.getRequiredName(), component, parts);
+}
+
+void repairMasslessEnds(ModelDescription& model) {
+    // A gram on a radius of gyration of a centimeter.
+    constexpr double kLittleMass = 1e-3, kLittleInertia = 1e-7;
+    std::set<std::string> parents;
+    for (const Joint& joint : model.joints) parents.insert(joint.parentBody);
+    for (const Joint& joint : model.joints) {
+        const auto body = std::find_if(model.bodies.begin(), model.bodies.end(),
+                                       [&](const Body& each) { return each.name == joint.childBody; });
+        const bool isMasslessEnd = body != model.bodies.end() && body->mass == 0.0 && !parents.count(body->name);
+        if (!isMasslessEnd || joint.coordinates.empty()) continue;
+        body->mass = kLittleMass;
+        body->inertia = {kLittleInertia, kLittleInertia, kLittleInertia, 0.0, 0.0, 0.0};
+        model.notes.push_back({body->line, "body '" + body->name + "' moves at the end of joint '" + joint.name +
+                                               "' without mass; it is given 1 gram"});
+    }
 }
 
 void readBodies(Element& model, BodyParts& parts) {

@@ -26,7 +26,11 @@ struct BodyParts {
 /** Reads Ground and BodySet of a Model element. */
 void readBodies(Element& model, BodyParts& parts);
 
-/** Enters an offset frame into the table and among the owners of wrap objects. */
-void addOffsetFrame(const Element& frame, const std::string& ownerPath, BodyParts& parts);
+/** Enters a component of a body, a joint or the model: a frame, which may own wrap objects, or a station. */
+void addComponent(const Element& component, const std::string& ownerPath, BodyParts& parts);
+
+/** Gives a body at the end of the tree that moves and has no mass so little of it that it can be simulated, with a
+note. */
+void repairMasslessEnds(ModelDescription& model);
 
 }  // namespace tautline::models

@@ -1,45 +1,104 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "read_constraints.h"
 
-#include <tuple>
+#include <map>
 
 #include "read_functions.h"
 
 namespace tautline::models {
 namespace {
 
-CoordinateCoupler readCoupler(Element& element) {
+ModelConstraint readCoupler(Element& element, const FrameTable&) {
     CoordinateCoupler coupler;
     coupler.name = element.getName();
     coupler.line = element.findLine();
     const Element independent = element.require("independent_coordinate_names");
     const Element dependent = element.require("dependent_coordinate_name");
-    coupler.independentCoordinate = resolveCoordinate(independent).name;
     coupler.dependentCoordinate = resolveCoordinate(dependent).name;
-    if (coupler.independentCoordinate == coupler.dependentCoordinate)
-        dependent.fail(element.describe() + " couples '" + coupler.dependentCoordinate + "' to itself");
-    coupler.function = requireWrappedFunction(element.require("coupled_coordinates_function"));
+    for (const std::string& name : independent.getWords()) {
+        coupler.independentCoordinates.push_back(resolveCoordinate(independent, name).name);
+        if (coupler.independentCoordinates.back() == coupler.dependentCoordinate)
+            dependent.fail(element.describe() + " couples '" + coupler.dependentCoordinate + "' to itself");
+    }
+    if (coupler.independentCoordinates.empty()) independent.fail(element.describe() + " has no independent coordinate");
+    coupler.function =
+        requireWrappedFunction(element.require("coupled_coordinates_function"), coupler.independentCoordinates.size());
     coupler.scaleFactor = element.getNumberOr("scale_factor", 1.0);
     return coupler;
 }
 
-/** The body of a point constraint and its point, from the frame that the file names. */
-std::pair<std::string, Vec3> readBodyPoint(Element& element, const std::string& number, const FrameTable& frames) {
-    Element socket = element.findAny({"socket_body_" + number, "body_" + number});
-    if (!socket) element.fail(element.describe() + " has no socket_body_" + number);
-    const BodyFrame frame = frames.resolve(socket, "/constraintset/" + element.getName());
-    const Vec3 location = element.getVec3Or("location_body_" + number, Vec3::Zero());
-    return {frame.body, frame.X_BF * location};
+/** The frame that a socket, or an element of the old layout, names. */
+BodyFrame resolveFrame(Element& element, const std::string& socketName, const std::string& oldTag,
+                       const FrameTable& frames) {
+    Element socket = element.findSocket(socketName);
+    if (!socket) socket = element.find(oldTag);
+    if (!socket) element.fail(element.describe() + " has no socket_" + socketName);
+    return frames.resolve(socket, "/constraintset/" + element.getName());
 }
 
-PointConstraint readPointConstraint(Element& element, const FrameTable& frames) {
-    PointConstraint constraint;
+/** Bodies 1 and 2 of a constraint with a point on each. */
+template <class Constraint>
+void readPoints(Element& element, const FrameTable& frames, Constraint& constraint) {
     constraint.name = element.getName();
     constraint.line = element.findLine();
-    std::tie(constraint.body1, constraint.location1) = readBodyPoint(element, "1", frames);
-    std::tie(constraint.body2, constraint.location2) = readBodyPoint(element, "2", frames);
-    if (constraint.body1 == constraint.body2)
-        element.fail(element.describe() + " holds body '" + constraint.body1 + "' to itself");
+    const BodyFrame frame1 = resolveFrame(element, "body_1", "body_1", frames);
+    const BodyFrame frame2 = resolveFrame(element, "body_2", "body_2", frames);
+    constraint.body1 = frame1.body;
+    constraint.body2 = frame2.body;
+    constraint.location1 = frame1.X_BF * element.getVec3Or("location_body_1", Vec3::Zero());
+    constraint.location2 = frame2.X_BF * element.getVec3Or("location_body_2", Vec3::Zero());
+}
+
+void requireTwoBodies(const Element& element, const std::string& body1, const std::string& body2) {
+    if (body1 == body2) element.fail(element.describe() + " holds body '" + body1 + "' to itself");
+}
+
+ModelConstraint readPointConstraint(Element& element, const FrameTable& frames) {
+    PointConstraint constraint;
+    readPoints(element, frames, constraint);
+    requireTwoBodies(element, constraint.body1, constraint.body2);
+    return constraint;
+}
+
+ModelConstraint readConstantDistance(Element& element, const FrameTable& frames) {
+    ConstantDistanceConstraint constraint;
+    readPoints(element, frames, constraint);
+    requireTwoBodies(element, constraint.body1, constraint.body2);
+    constraint.distance = element.requirePositive("constant_distance");
+    return constraint;
+}
+
+ModelConstraint readWeld(Element& element, const FrameTable& frames) {
+    WeldConstraint constraint;
+    constraint.name = element.getName();
+    constraint.line = element.findLine();
+    const BodyFrame frame1 = resolveFrame(element, "frame1", "body_1", frames);
+    const BodyFrame frame2 = resolveFrame(element, "frame2", "body_2", frames);
+    constraint.body1 = frame1.body;
+    constraint.body2 = frame2.body;
+    // The old layout has the frames' poses beside the names of the bodies.
+    constraint.X_B1F = frame1.X_BF * makePose(element.getVec3Or("location_body_1", Vec3::Zero()),
+                                              element.getVec3Or("orientation_body_1", Vec3::Zero()));
+    constraint.X_B2F = frame2.X_BF * makePose(element.getVec3Or("location_body_2", Vec3::Zero()),
+                                              element.getVec3Or("orientation_body_2", Vec3::Zero()));
+    element.acceptTag("frames");
+    requireTwoBodies(element, constraint.body1, constraint.body2);
+    return constraint;
+}
+
+ModelConstraint readPointOnLine(Element& element, const FrameTable& frames) {
+    PointOnLineConstraint constraint;
+    constraint.name = element.getName();
+    constraint.line = element.findLine();
+    const BodyFrame line = resolveFrame(element, "line_body", "line_body", frames);
+    const BodyFrame follower = resolveFrame(element, "follower_body", "follower_body", frames);
+    constraint.lineBody = line.body;
+    constraint.followerBody = follower.body;
+    constraint.pointOnLine = line.X_BF * element.getVec3Or("point_on_line", Vec3::Zero());
+    constraint.direction = line.X_BF.R * element.getVec3Or("line_direction_vec", Vec3::Zero());
+    if (constraint.direction.isZero(0)) element.fail("the line of " + element.describe() + " has no direction");
+    constraint.follower = follower.X_BF * element.getVec3Or("point_on_follower", Vec3::Zero());
+    requireTwoBodies(element, constraint.lineBody, constraint.followerBody);
     return constraint;
 }
 
@@ -49,31 +108,38 @@ bool isEnforced(Element& element) {
     return (!enforced || enforced.getBool()) && !(disabled && disabled.getBool());
 }
 
+using ConstraintReader = ModelConstraint (*)(Element&, const FrameTable&);
+
+const std::map<std::string, ConstraintReader>& getConstraintReaders() {
+    static const std::map<std::string, ConstraintReader> kReaders{{"CoordinateCouplerConstraint", readCoupler},
+                                                                  {"PointConstraint", readPointConstraint},
+                                                                  {"WeldConstraint", readWeld},
+                                                                  {"PointOnLineConstraint", readPointOnLine},
+                                                                  {"ConstantDistanceConstraint", readConstantDistance}};
+    return kReaders;
+}
+
 void readConstraint(Element element, const FrameTable& frames) {
-    const std::string tag = element.getTag();
     const bool enforced = isEnforced(element);
-    ModelConstraint constraint;
-    if (tag == "CoordinateCouplerConstraint")
-        constraint = readCoupler(element);
-    else if (tag == "PointConstraint")
-        constraint = readPointConstraint(element, frames);
-    else
-        element.fail("unknown constraint " + element.describe());
+    const auto reader = getConstraintReaders().find(element.getTag());
+    if (!enforced) return element.skipThis("ConstraintSet", "not enforced");
+    if (reader == getConstraintReaders().end()) return element.refuse("constraint", Effect::Motion);
+    const ModelConstraint constraint = reader->second(element, frames);
     element.refuseUnknown();
-    if (enforced)
-        element.updReading().model.constraints.push_back(constraint);
-    else
-        element.skipThis("ConstraintSet", "not enforced");
+    element.updReading().model.constraints.push_back(constraint);
 }
 
 }  // namespace
 
-const Coordinate& resolveCoordinate(const Element& socket) {
-    const std::string path = socket.getText();
+const Coordinate& resolveCoordinate(const Element& socket, const std::string& path) {
     const std::string name = path.substr(path.rfind('/') + 1);
     const Coordinate* coordinate = findCoordinate(socket.updReading().model, name);
     if (!coordinate) socket.fail("there is no coordinate '" + path + "', the " + socket.describeField());
     return *coordinate;
+}
+
+const Coordinate& resolveCoordinate(const Element& socket) {
+    return resolveCoordinate(socket, socket.getText());
 }
 
 void readConstraints(Element& model, const FrameTable& frames) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "read_forces.h"
 
+#include <limits>
 #include <map>
 
+#include "read_body_forces.h"
 #include "read_muscle_models.h"
 #include "read_muscles.h"
 #include "read_path_forces.h"
@@ -13,12 +15,25 @@ namespace {
 using ForceReader = void (*)(Element&, const FrameTable&);
 
 void skipUncontrolled(Element& element, const FrameTable&) {
-    element.skipThis("ForceSet", "gives no force while no controller drives it");
+    element.skipThis("ForceSet", "gives no force while no controller drives it", Effect::Forces);
 }
 
 const std::map<std::string, ForceReader>& getForceReaders() {
-    static const std::map<std::string, ForceReader> kReaders{{"PathSpring", readPathSpring},
-                                                             {"CoordinateActuator", skipUncontrolled},
+    static const std::map<std::string, ForceReader> kReaders{{"Millard2012AccelerationMuscle", readPathOnly},
+                                                             {"ContDerivMuscle_Deprecated", readPathOnly},
+                                                             {"SimpleMuscle", readPathOnly},
+                                                             {"PathSpring", readPathSpring},
+                                                             {"Ligament", readLigament},
+                                                             {"Blankevoort1991Ligament", readBlankevoortLigament},
+                                                             {"PathActuator", readPathActuator},
+                                                             {"CoordinateLimitForce", readCoordinateLimitForce},
+                                                             {"SpringGeneralizedForce", readCoordinateSpring},
+                                                             {"BushingForce", readBushing},
+                                                             {"PointToPointSpring", readPointToPointSpring},
+                                                             {"CoordinateActuator", readCoordinateActuator},
+                                                             {"ActivationCoordinateActuator", readCoordinateActuator},
+                                                             {"HuntCrossleyForce", readHuntCrossley},
+                                                             {"SmoothSphereHalfSpaceForce", readSmoothSphere},
                                                              {"PointActuator", skipUncontrolled},
                                                              {"TorqueActuator", skipUncontrolled}};
     return kReaders;
@@ -31,6 +46,11 @@ ForceReader findForceReader(const std::string& tag) {
     return found == getForceReaders().end() ? nullptr : found->second;
 }
 
+/** Whether an element has what only an owner of a path has. */
+bool hasPath(Element& element) {
+    return static_cast<bool>(element.findAny({"GeometryPath", "Scholz2015GeometryPath", "FunctionBasedPath"}));
+}
+
 }  // namespace
 
 bool readAppliesForce(Element& element) {
@@ -38,19 +58,38 @@ bool readAppliesForce(Element& element) {
     return element.getBoolOr("appliesForce", true) && !disabled;
 }
 
+std::array<double, 2> readControlRange(Element& element) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const auto readEnd = [&](const std::string& tag, double fallback) {
+        const Element child = element.find(tag);
+        const std::string text = child ? child.getText() : "";
+        if (text.empty() || text == "Inf" || text == "-Inf") return fallback;
+        return child.getNumber();
+    };
+    const std::array<double, 2> range{readEnd("min_control", -infinity), readEnd("max_control", infinity)};
+    if (range[0] > range[1]) element.fail(element.describe() + " has a min_control above its max_control");
+    return range;
+}
+
 void requireUniqueForceName(const Element& element, const std::string& name) {
     const auto& model = element.updReading().model;
     if (findMuscle(model, name)) element.fail("a second muscle '" + name + "'");
     if (findSpring(model, name)) element.fail("a second path spring '" + name + "'");
+    if (findPathForce(model, name)) element.fail("a second force '" + name + "' with a path");
 }
 
 void readForces(Element& model, const FrameTable& frames) {
-    Element set = model.find("ForceSet");
+    Element set = model.findAny({"ForceSet", "ActuatorSet"});
     if (!set) return;
+    set.skip({"datafile", "external_loads_model_kinematics_file", "lowpass_cutoff_frequency_for_load_kinematics"},
+             "names files of external loads, which a model does not apply by itself");
     for (Element force : set.getSetMembers()) {
-        const ForceReader read = findForceReader(force.getTag());
-        if (!read) force.fail("unknown force " + force.describe());
-        read(force, frames);
+        if (const ForceReader read = findForceReader(force.getTag()))
+            read(force, frames);
+        else if (hasPath(force))
+            force.refuse("force", Effect::Motion);
+        else
+            force.refuse("force", Effect::Forces);
     }
 }
 

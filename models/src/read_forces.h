@@ -10,6 +10,9 @@ void readForces(Element& model, const FrameTable& frames);
 /** Whether a force acts, in the spelling of either layout. */
 bool readAppliesForce(Element& element);
 
+/** The least and the greatest control of an actuator, unbounded where the file gives none. */
+std::array<double, 2> readControlRange(Element& element);
+
 /** Results name all forces with paths alike: no two may share a name. */
 void requireUniqueForceName(const Element& element, const std::string& name);
 

@@ -181,7 +181,7 @@ std::optional<ScalarFunction> findFunction(Element& element, const std::string& 
     for (const Element& child : element.getChildren()) {
         if (child.getName() != name) continue;
         element.acceptTag(child.getTag());
-        return readFunction(child);
+        return readFunction(child, 1).asScalar();
     }
     return std::nullopt;
 }

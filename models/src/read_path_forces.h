@@ -4,7 +4,14 @@
 
 namespace tautline::models {
 
-/** Reads an elastic string with its path. */
+/** @name Readers of forces that pull along a path, the path included */
+///@{
 void readPathSpring(Element& element, const FrameTable& frames);
+void readLigament(Element& element, const FrameTable& frames);
+void readBlankevoortLigament(Element& element, const FrameTable& frames);
+void readPathActuator(Element& element, const FrameTable& frames);
+/** Of a force that is not modeled: its path is read and nothing else. */
+void readPathOnly(Element& element, const FrameTable& frames);
+///@}
 
 }  // namespace tautline::models

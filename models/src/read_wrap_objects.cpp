@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "read_wrap_objects.h"
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 
 namespace tautline::models {
@@ -8,12 +10,15 @@ namespace {
 
 Quadrant readQuadrant(Element& element) {
     static const std::map<std::string, Quadrant> kQuadrants{
-        {"", Quadrant::All},      {"all", Quadrant::All},   {"Unassigned", Quadrant::All}, {"x", Quadrant::PlusX},
+        {"", Quadrant::All},      {"all", Quadrant::All},   {"unassigned", Quadrant::All}, {"x", Quadrant::PlusX},
         {"+x", Quadrant::PlusX},  {"-x", Quadrant::MinusX}, {"y", Quadrant::PlusY},        {"+y", Quadrant::PlusY},
         {"-y", Quadrant::MinusY}, {"z", Quadrant::PlusZ},   {"+z", Quadrant::PlusZ},       {"-z", Quadrant::MinusZ}};
     const Element child = element.find("quadrant");
     if (!child) return Quadrant::All;
-    const auto found = kQuadrants.find(child.getText());
+    std::string text = child.getText();
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto found = kQuadrants.find(text);
     if (found == kQuadrants.end()) child.fail("unknown quadrant '" + child.getText() + "' of " + element.describe());
     return found->second;
 }
@@ -57,22 +62,30 @@ SurfaceForm readForm(Element& element) {
     return SurfaceForm::Parametric;
 }
 
-void readShape(Element& element, WrapObject& wrap) {
-    const std::string tag = element.getTag();
-    if (tag == "WrapCylinder")
-        wrap.shape = CylinderShape{element.requirePositive("radius"), element.requirePositive("length")};
-    else if (tag == "WrapSphere")
-        wrap.shape = SphereShape{element.requirePositive("radius")};
-    else if (tag == "WrapEllipsoid")
-        wrap.shape = readEllipsoid(element);
-    else if (tag == "WrapTorus")
-        wrap.shape = readTorus(element);
-    else if (tag == "TautlineWrapParaboloid")
-        wrap.shape = readParaboloid(element);
-    else if (tag == "TautlineWrapEllipticTorus")
-        wrap.shape = readEllipticTorus(element);
-    else
-        element.fail("unknown wrap object " + element.describe());
+CylinderShape readCylinder(Element& element) {
+    return {element.requirePositive("radius"), element.requirePositive("length")};
+}
+
+SphereShape readSphere(Element& element) {
+    return {element.requirePositive("radius")};
+}
+
+using ShapeReader = WrapShape (*)(Element&);
+
+/** A reader of one shape as one of any. */
+template <auto read>
+WrapShape readAs(Element& element) {
+    return read(element);
+}
+
+const std::map<std::string, ShapeReader>& getShapeReaders() {
+    static const std::map<std::string, ShapeReader> kReaders{{"WrapCylinder", readAs<readCylinder>},
+                                                             {"WrapSphere", readAs<readSphere>},
+                                                             {"WrapEllipsoid", readAs<readEllipsoid>},
+                                                             {"WrapTorus", readAs<readTorus>},
+                                                             {"TautlineWrapParaboloid", readAs<readParaboloid>},
+                                                             {"TautlineWrapEllipticTorus", readAs<readEllipticTorus>}};
+    return kReaders;
 }
 
 void checkUnique(const Element& element, const WrapObject& wrap, const ModelDescription& model) {
@@ -82,33 +95,25 @@ void checkUnique(const Element& element, const WrapObject& wrap, const ModelDesc
 }
 
 void readWrapObject(Element element, const BodyFrame& owner) {
+    const auto reader = getShapeReaders().find(element.getTag());
+    if (reader == getShapeReaders().end()) return element.refuse("wrap object", Effect::Motion);
     WrapObject wrap;
     wrap.name = element.getRequiredName();
     wrap.line = element.findLine();
     wrap.body = owner.body;
-    readShape(element, wrap);
+    wrap.shape = reader->second(element);
     wrap.form = readForm(element);
     const Vec3 translation = element.getVec3Or("translation", Vec3::Zero());
     const Vec3 rotation = element.getVec3Or("xyz_body_rotation", Vec3::Zero());
     wrap.X_BW = owner.X_BF * makePose(translation, rotation);
     wrap.quadrant = readQuadrant(element);
     wrap.active = element.getBoolOr("active", true);
-    element.skip({"Appearance", "VisibleObject", "display_preference", "color", "FrameGeometry"}, "only drawn");
+    element.skip({"Appearance", "VisibleObject", "display_preference", "color", "FrameGeometry", "attached_geometry"},
+                 "only drawn");
     element.refuseUnknown();
     auto& model = element.updReading().model;
     checkUnique(element, wrap, model);
     model.wrapObjects.push_back(wrap);
-}
-
-BodyFrame findOwner(const FrameElement& owner, const FrameTable& frames) {
-    Element element = owner.element;
-    if (element.getTag() != "PhysicalOffsetFrame")
-        return {owner.path == "/ground" ? kGroundName : element.getName(), {}};
-    const Element parent = element.require("socket_parent");
-    const BodyFrame base = frames.resolve(parent, owner.path);
-    const Vec3 translation = element.getVec3Or("translation", Vec3::Zero());
-    const Vec3 orientation = element.getVec3Or("orientation", Vec3::Zero());
-    return {base.body, base.X_BF * makePose(translation, orientation)};
 }
 
 }  // namespace
@@ -118,7 +123,7 @@ void readWrapObjects(const BodyParts& parts) {
         Element element = owner.element;
         Element set = element.find("WrapObjectSet");
         if (!set) continue;
-        for (const Element& wrap : set.getSetMembers()) readWrapObject(wrap, findOwner(owner, parts.frames));
+        for (const Element& wrap : set.getSetMembers()) readWrapObject(wrap, parts.frames.resolvePath(owner.path));
     }
 }
 

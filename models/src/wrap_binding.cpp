@@ -108,19 +108,23 @@ void setRandomPose(const BuiltModel& model, std::mt19937& random, SimTK::State& 
     model.applyCouplers(state);
 }
 
-/** What the file says of where the path runs: a point, a start, or the side that the quadrant asks for. */
-StartHint makeHint(const WrapObject& object, const PathWrap& wrap) {
-    if (wrap.hint) return PassNear{*wrap.hint};
-    if (wrap.start) return PassNear{wrap.start->point};
-    const Vec3 side = getActiveSide(object.quadrant);
-    if (side.isZero()) return {};
-    return PassOnSide{side};
-}
-
 /** A segment that a wrap allows. */
 struct SampledSegment {
     SegmentInObject atDefault;  ///< in the default pose
     int numEngaged = 0;         ///< sampled poses in which the path wraps there
+    int numPierced = 0;         ///< of those, poses in which it would pass through the object
+};
+
+/** A wrap of a path with what is seen of it over the poses. */
+struct SampledWrap {
+    const MusclePath* path = nullptr;
+    std::size_t wrap = 0;
+    const WrapObject* object = nullptr;
+    std::shared_ptr<const Surface> surface;
+    std::size_t firstSegment = 0;
+    std::vector<SampledSegment> segments;
+
+    const PathWrap& getWrap() const { return path->wraps[wrap]; }
 };
 
 /** Calls visit(isDefaultPose) in the default pose and in the sampled ones, with `state` realized to Position. */
@@ -137,29 +141,70 @@ void visitSampledPoses(const BuiltModel& model, SimTK::State& state, Visitor vis
     }
 }
 
-/** The segments from `first` to `last` over all poses. */
-std::vector<SampledSegment> sampleSegments(const WrapObject& object, const MusclePath& path, std::size_t first,
-                                           std::size_t last, const BuiltModel& model, SimTK::State& state) {
-    const auto surface = makeSurface(object);
-    const SimTK::Transform X_BW = toTransform(object.X_BW);
-    std::vector<SampledSegment> segments(last - first + 1);
-    visitSampledPoses(model, state, [&](bool isDefault) {
-        const SimTK::Transform X_GW = model.getBody(object.body).getBodyTransform(state) * X_BW;
-        const std::vector<SimTK::Vec3> points_G = calcPointLocations(path, model, state);
-        for (std::size_t s = first; s <= last; ++s) {
-            const SegmentInObject segment = lookAtSegment(*surface, X_GW, points_G[s], points_G[s + 1]);
-            if (isDefault) segments[s - first].atDefault = segment;
-            segments[s - first].numEngaged += isEngaged(object, segment);
-        }
-    });
-    return segments;
+/** What the file says of where the path runs: a point, a start, the side that the quadrant asks for, or the hole of a
+ring, which a path passes in the direction in which the segment points in the default pose. */
+StartHint makeHint(const SampledWrap& sampled, const SegmentInObject& atDefault) {
+    const PathWrap& wrap = sampled.getWrap();
+    if (wrap.hint) return PassNear{*wrap.hint};
+    if (wrap.start) return PassNear{wrap.start->point};
+    // A contact geometry without a hint is passed where the straight line suggests.
+    if (std::holds_alternative<TorusShape>(sampled.object->shape) && !sampled.object->isContactGeometry)
+        return ThreadHole{atDefault.e.z() < 0 ? -1 : 1};
+    const Vec3 side = getActiveSide(sampled.object->quadrant);
+    if (side.isZero()) return {};
+    return PassOnSide{side};
 }
 
-/** The one that is engaged in most poses; of those the one nearest to the object. */
-const SampledSegment& chooseSegment(const std::vector<SampledSegment>& segments) {
-    return *std::max_element(segments.begin(), segments.end(), [](const SampledSegment& a, const SampledSegment& b) {
-        return a.numEngaged != b.numEngaged ? a.numEngaged < b.numEngaged : b.atDefault.height < a.atDefault.height;
+/** Looks at the segments of a wrap in a pose. */
+void sampleWrap(const BuiltModel& model, const SimTK::State& state, const std::vector<SimTK::Vec3>& points_G,
+                bool isDefault, SampledWrap& sampled) {
+    const WrapObject& object = *sampled.object;
+    const SimTK::Transform X_GW = model.getBody(object.body).getBodyTransform(state) * toTransform(object.X_BW);
+    for (std::size_t i = 0; i < sampled.segments.size(); ++i) {
+        const std::size_t s = sampled.firstSegment + i;
+        const SegmentInObject segment = lookAtSegment(*sampled.surface, X_GW, points_G[s], points_G[s + 1]);
+        SampledSegment& record = sampled.segments[i];
+        if (isDefault) record.atDefault = segment;
+        const bool engages = isEngaged(object, segment);
+        record.numEngaged += engages;
+        record.numPierced += engages && segment.height < 0;
+    }
+}
+
+/** The active wraps of all paths over all poses. */
+std::vector<SampledWrap> sampleWraps(const ModelDescription& description, const std::vector<const MusclePath*>& paths,
+                                     const BuiltModel& model, SimTK::State& state) {
+    std::vector<std::shared_ptr<const Surface>> surfaces(description.wrapObjects.size());
+    std::vector<SampledWrap> sampled;
+    for (const MusclePath* path : paths) {
+        for (std::size_t w = 0; w < path->wraps.size(); ++w) {
+            const std::size_t index = path->wraps[w].wrapObject;
+            const WrapObject& object = description.wrapObjects[index];
+            if (!object.active) continue;
+            if (!surfaces[index]) surfaces[index] = makeSurface(object);
+            const auto [first, last] = getAllowedSegments(path->wraps[w], path->points.size());
+            sampled.push_back(
+                {path, w, &object, surfaces[index], first, std::vector<SampledSegment>(last - first + 1)});
+        }
+    }
+    visitSampledPoses(model, state, [&](bool isDefault) {
+        const MusclePath* located = nullptr;
+        std::vector<SimTK::Vec3> points_G;
+        for (SampledWrap& wrap : sampled) {
+            if (wrap.path != located) points_G = calcPointLocations(*wrap.path, model, state);
+            located = wrap.path;
+            sampleWrap(model, state, points_G, isDefault, wrap);
+        }
     });
+    return sampled;
+}
+
+/** The segment that is engaged in most poses; of those the one nearest to the object. */
+std::size_t chooseSegment(const std::vector<SampledSegment>& segments) {
+    const auto isLess = [](const SampledSegment& a, const SampledSegment& b) {
+        return a.numEngaged != b.numEngaged ? a.numEngaged < b.numEngaged : b.atDefault.height < a.atDefault.height;
+    };
+    return static_cast<std::size_t>(std::max_element(segments.begin(), segments.end(), isLess) - segments.begin());
 }
 
 /** Where the origin of the object stands along a segment, 0 to 1. */
@@ -167,36 +212,48 @@ double calcPlace(const SegmentInObject& segment) {
     return segment.length > 0 ? std::clamp(-segment.A.dot(segment.e) / segment.length, 0.0, 1.0) : 0.0;
 }
 
-BoundWrap bindWrap(const WrapObject& object, const MusclePath& path, std::size_t wrap, const BuiltModel& model,
-                   SimTK::State& state) {
-    const auto [first, last] = getAllowedSegments(path.wraps[wrap], path.points.size());
-    const std::vector<SampledSegment> segments = sampleSegments(object, path, first, last, model, state);
-    const SampledSegment& chosen = chooseSegment(segments);
-    BoundWrap bound;
-    bound.wrap = wrap, bound.form = object.form;
-    bound.segment = first + static_cast<std::size_t>(&chosen - segments.data());
-    bound.place = calcPlace(chosen.atDefault);
-    bound.hint_W = makeHint(object, path.wraps[wrap]);
-    bound.numEngaged = chosen.numEngaged;
-    for (const SampledSegment& segment : segments)
-        if (&segment != &chosen) bound.numElsewhere += segment.numEngaged;
-    return bound;
+/** Binds a wrap to its segments. */
+void bindWrap(const SampledWrap& sampled, std::vector<BoundWrap>& bound) {
+    const std::vector<SampledSegment>& segments = sampled.segments;
+    const std::size_t chosen = chooseSegment(segments);
+    const bool isOneSided = !getActiveSide(sampled.object->quadrant).isZero();
+    const auto isBound = [&](std::size_t s) { return s == chosen || (!isOneSided && segments[s].numPierced > 0); };
+    int numElsewhere = 0;
+    for (std::size_t s = 0; s < segments.size(); ++s)
+        if (!isBound(s)) numElsewhere += segments[s].numEngaged;
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+        if (!isBound(s)) continue;
+        BoundWrap wrap;
+        wrap.wrap = sampled.wrap;
+        wrap.object = sampled.getWrap().wrapObject;
+        wrap.surface = sampled.surface;
+        wrap.segment = sampled.firstSegment + s;
+        wrap.form = sampled.object->form;
+        wrap.place = calcPlace(segments[s].atDefault);
+        wrap.hint_W = makeHint(sampled, segments[s].atDefault);
+        wrap.start = s == chosen ? sampled.getWrap().start : std::nullopt;
+        wrap.numEngaged = segments[s].numEngaged;
+        wrap.numElsewhere = numElsewhere;
+        bound.push_back(std::move(wrap));
+    }
 }
 
 }  // namespace
 
-std::vector<BoundWrap> bindWraps(const ModelDescription& description, const MusclePath& path, const BuiltModel& model,
-                                 const SimTK::State& initialState) {
-    std::vector<BoundWrap> bound;
+std::vector<std::vector<BoundWrap>> bindWraps(const ModelDescription& description,
+                                              const std::vector<const MusclePath*>& paths, const BuiltModel& model,
+                                              const SimTK::State& initialState) {
     SimTK::State state = initialState;
-    for (std::size_t w = 0; w < path.wraps.size(); ++w) {
-        const WrapObject& object = description.wrapObjects[path.wraps[w].wrapObject];
-        if (object.active) bound.push_back(bindWrap(object, path, w, model, state));
+    const std::vector<SampledWrap> sampled = sampleWraps(description, paths, model, state);
+    std::vector<std::vector<BoundWrap>> bound(paths.size());
+    for (std::size_t p = 0; p < paths.size(); ++p) {
+        for (const SampledWrap& wrap : sampled)
+            if (wrap.path == paths[p]) bindWrap(wrap, bound[p]);
+        const bool isListed = paths[p]->areWrapsInOrder;
+        std::stable_sort(bound[p].begin(), bound[p].end(), [isListed](const BoundWrap& a, const BoundWrap& b) {
+            return a.segment != b.segment ? a.segment < b.segment : !isListed && a.place < b.place;
+        });
     }
-    const bool isListed = path.areWrapsInOrder;
-    std::stable_sort(bound.begin(), bound.end(), [isListed](const BoundWrap& a, const BoundWrap& b) {
-        return a.segment != b.segment ? a.segment < b.segment : !isListed && a.place < b.place;
-    });
     return bound;
 }
 

@@ -11,6 +11,8 @@ namespace tautline {
 void RunCommand::declare(CLI::App& app) {
     app.option_defaults()->take_last();  // so that what a script gives can be overridden
     app.add_option("MODEL", modelFile, "model file (.osim)")->required();
+    app.add_option("--ignore", ignored, "name or type of an element to leave out though it is not known; repeatable")
+        ->take_all();
     app.add_option("--duration", simulation.duration, "time to simulate [s]")->capture_default_str();
     app.add_option("--out", outFolder, "folder of the results, made if missing")->capture_default_str();
     app.add_option("--excitation", excitations.assignments,
@@ -25,7 +27,7 @@ void RunCommand::declare(CLI::App& app) {
 
 int RunCommand::run(std::ostream& out, bool isTerminal) const {
     simulation.validate();
-    const models::ModelDescription description = models::readOsimFile(modelFile);
+    const models::ModelDescription description = models::readOsimFile(modelFile, {ignored, false});
     models::ModelSystem model(description);
     std::vector<std::string> names;
     for (const auto& slot : model.getMuscles()) names.push_back(slot.name);

@@ -13,6 +13,8 @@ namespace tautline {
 clearances.sto and events.csv, start.csv if the model gives geodesics to start from, and pictures if asked for. */
 struct RunCommand {
     std::filesystem::path modelFile, outFolder = "results";
+    /** Names or types of unknown elements that are left out. */
+    std::vector<std::string> ignored;
     ExcitationOptions excitations;
     SimulationOptions simulation;
     bool allowsDegraded = false;

@@ -44,23 +44,34 @@ void printMuscleNotes(const models::ModelSystem& model, const SimulationResult& 
     }
 }
 
+/** What was left out with one effect: a line for each reason. */
+void printSkipped(const models::ModelDescription& description, models::Effect effect, const char* heading,
+                  std::ostream& out) {
+    std::map<std::string, std::string> listOfReason;
+    for (const models::SkippedElements& skipped : description.skipped) {
+        if (skipped.effect != effect) continue;
+        std::string& list = listOfReason[skipped.reason];
+        list += (list.empty() ? "" : ", ") + std::to_string(skipped.count) + " " + skipped.element + " in " +
+                skipped.owner + " (line " + std::to_string(skipped.firstLine) + ")";
+    }
+    if (!listOfReason.empty()) out << heading << ":\n";
+    for (const auto& [reason, list] : listOfReason) out << "  " << reason << ": " << list << "\n";
+}
+
 }  // namespace
 
 void printModelNotes(const models::ModelDescription& description, const models::ModelSystem& model, std::ostream& out) {
     out << description.fileName << ": model '" << description.name << "', " << description.bodies.size() << " bodies, "
         << model.getModel().getCoordinateNames().size() << " coordinates, " << description.muscles.size() << " muscles";
     if (!description.springs.empty()) out << ", " << description.springs.size() << " path springs";
+    if (!description.pathForces.empty()) out << ", " << description.pathForces.size() << " other forces along paths";
+    if (!description.bodyForces.empty()) out << ", " << description.bodyForces.size() << " forces without a path";
     out << "\n";
-    if (!description.skipped.empty()) {
-        out << "skipped, without effect on the motion:";
-        const char* separator = " ";
-        for (const models::SkippedElements& skipped : description.skipped) {
-            out << separator << skipped.count << " " << skipped.element << " in " << skipped.owner << " (line "
-                << skipped.firstLine << ")";
-            separator = ", ";
-        }
-        out << "\n";
-    }
+    printSkipped(description, models::Effect::None, "left out, changes nothing", out);
+    printSkipped(description, models::Effect::Forces, "left out, changes forces", out);
+    printSkipped(description, models::Effect::Motion, "left out, may change poses, lengths and forces", out);
+    for (const models::ReadingNote& note : description.notes)
+        out << "note: " << description.fileName << ":" << note.line << ": " << note.text << "\n";
     printMuscleTypes(description, out);
     for (const auto& slot : model.getPaths())
         for (const models::BoundWrap& wrap : slot.wraps)

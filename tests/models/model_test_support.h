@@ -18,7 +18,7 @@ struct BuiltSystem {
           matter(system),
           forces(system),
           model(buildMultibody(description, matter)),
-          gravity(addGravity(description, forces, matter)) {
+          gravity(addGravity(description, forces, model)) {
         matter.setShowDefaultGeometry(false);
         state = system.realizeTopology();
         model.setDefaultPose(state);

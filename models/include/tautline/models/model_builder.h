@@ -37,6 +37,9 @@ public:
     const CoordinateSlot& getCoordinateSlot(const std::string& name) const;
     /** In the order of the file. */
     const std::vector<std::string>& getCoordinateNames() const { return m_coordinateNames; }
+    const std::vector<CoordinateCoupler>& getCouplers() const { return m_couplers; }
+    /** Bodies of no name that carry the coordinates which their joints do not use. */
+    const std::vector<SimTK::MobilizedBodyIndex>& getIdleBodies() const { return m_idleBodies; }
 
     /** Sets all coordinates and speeds to their defaults, driven ones to their motion at the state's time, then lets
     the couplers have their way. */
@@ -47,6 +50,12 @@ public:
     double getCoordinate(const SimTK::State& state, const std::string& name) const;
     void setCoordinateSpeed(SimTK::State& state, const std::string& name, double speed) const;
     double getCoordinateSpeed(const SimTK::State& state, const std::string& name) const;
+    /** The partial derivative of a coupler's dependent coordinate by its argument i. */
+    double calcCouplingSlope(const SimTK::State& state, const CoordinateCoupler& coupler, int i) const;
+    /** A coordinate without which its joint has fewer directions to move in, in this pose: in gimbal lock, or where
+    two of its motions are alike. Null if there is none. The equations of motion are singular there. Needs
+    Stage::Position. */
+    const std::string* findSingularCoordinate(const SimTK::State& state) const;
     /** Gives every coupled coordinate the value and speed that its coupler asks for. */
     void applyCouplers(SimTK::State& state) const;
 
@@ -62,12 +71,13 @@ private:
     std::map<std::string, CoordinateSlot> m_coordinates;
     std::vector<std::string> m_coordinateNames;
     std::vector<CoordinateCoupler> m_couplers;
+    std::vector<SimTK::MobilizedBodyIndex> m_idleBodies;
 };
 
 /** Adds the bodies, joints, locks, prescribed motions and constraints of a model to a matter subsystem. Every
-coordinate becomes a q whose u is its derivative. A joint all of whose coordinates are prescribed is driven exactly, by
-a Motion; other prescribed coordinates by constraints. Forces are not added. The defaults of the model are not those of
-the system: call BuiltModel::setDefaultPose().
+coordinate becomes a q whose u is its derivative; one that its joint does not use moves nothing. A joint all of whose
+coordinates are prescribed is driven exactly, by a Motion; other prescribed coordinates by constraints. Forces are not
+added. The defaults of the model are not those of the system: call BuiltModel::setDefaultPose().
 
 @throws ModelError, before anything is added, if bodies are not joined to the ground in a tree, if two turning or two
 shifting axes of a joint are parallel, or if a joint moves no mass. */
@@ -75,6 +85,6 @@ BuiltModel buildMultibody(const ModelDescription& model, SimTK::SimbodyMatterSub
 
 /** Adds the model's gravity. */
 SimTK::Force::Gravity addGravity(const ModelDescription& model, SimTK::GeneralForceSubsystem& forces,
-                                 const SimTK::SimbodyMatterSubsystem& matter);
+                                 const BuiltModel& built);
 
 }  // namespace tautline::models

@@ -13,6 +13,7 @@ file. */
 #include <variant>
 #include <vector>
 
+#include "tautline/models/multivariate_function.h"
 #include "tautline/models/scalar_function.h"
 #include "tautline/muscles/muscle_model.h"
 #include "tautline/types.h"
@@ -43,16 +44,16 @@ struct Coordinate {
     int line = 0;
 };
 
-/** One of the six axes of a custom joint: a turn about it or a shift along it, by function(q). */
+/** One of the six axes of a custom joint: a turn about it or a shift along it, by function(q...). */
 struct TransformAxis {
-    /** Empty if no coordinate drives the axis: then the function's value at 0 holds always. */
-    std::string coordinate;
+    /** The function's arguments; none: its value at 0 holds always. */
+    std::vector<std::string> coordinates;
     Vec3 axis = Vec3::Zero();
-    ScalarFunction function;
+    MultivariateFunction function;
     int line = 0;
 };
 
-enum class JointType { Weld, Pin, Slider, Universal, Ball, Gimbal, Planar, Free, Custom };
+enum class JointType { Weld, Pin, Slider, Universal, Ball, Gimbal, Planar, Free, Ellipsoid, Custom };
 
 /** X(parent -> child) = parentOffset * X_joint(q) * inverse(childOffset). */
 struct Joint {
@@ -65,15 +66,17 @@ struct Joint {
     std::vector<Coordinate> coordinates;
     /** Custom joints only: three turns, each carrying the next, then three shifts. */
     std::array<TransformAxis, 6> axes;
+    /** Ellipsoid joints only: the origin of the child's frame rides on this ellipsoid, its z axis along the normal. */
+    Vec3 semiAxes = Vec3::Zero();
     int line = 0;
 };
 
-/** dependent = scaleFactor * function(independent). */
+/** dependent = scaleFactor * function(independent...). */
 struct CoordinateCoupler {
     std::string name;
-    std::string independentCoordinate;
+    std::vector<std::string> independentCoordinates;
     std::string dependentCoordinate;
-    ScalarFunction function;
+    MultivariateFunction function;
     double scaleFactor = 1.0;
     int line = 0;
 };
@@ -88,12 +91,45 @@ struct PointConstraint {
     int line = 0;
 };
 
-using ModelConstraint = std::variant<CoordinateCoupler, PointConstraint>;
+/** A frame of one body coincides with a frame of another. */
+struct WeldConstraint {
+    std::string name;
+    std::string body1;
+    Pose X_B1F;
+    std::string body2;
+    Pose X_B2F;
+    int line = 0;
+};
+
+/** A point of one body stays on a line of another. */
+struct PointOnLineConstraint {
+    std::string name;
+    std::string lineBody;
+    Vec3 pointOnLine = Vec3::Zero();
+    Vec3 direction = Vec3::Zero();
+    std::string followerBody;
+    Vec3 follower = Vec3::Zero();
+    int line = 0;
+};
+
+/** Points of two bodies stay at a distance. */
+struct ConstantDistanceConstraint {
+    std::string name;
+    std::string body1;
+    Vec3 location1 = Vec3::Zero();
+    std::string body2;
+    Vec3 location2 = Vec3::Zero();
+    double distance = 0.0;
+    int line = 0;
+};
+
+using ModelConstraint =
+    std::variant<CoordinateCoupler, PointConstraint, WeldConstraint, PointOnLineConstraint, ConstantDistanceConstraint>;
 
 /** Axis z, centered. */
 struct CylinderShape {
     double radius = 0.0;
-    double length = 0.0;
+    double length = std::numeric_limits<double>::infinity();
 };
 struct SphereShape {
     double radius = 0.0;
@@ -136,6 +172,8 @@ struct WrapObject {
     bool active = true;
     WrapShape shape;
     SurfaceForm form = SurfaceForm::Implicit;
+    /** Made of a contact geometry, for a path that names it: no PathWrap can mean it. */
+    bool isContactGeometry = false;
     int line = 0;
 };
 
@@ -184,11 +222,23 @@ struct PathWrap {
     int line = 0;
 };
 
+/** A path that is not laid out: its length is a function of coordinates, fitted to one that was. */
+struct PathFunctions {
+    std::vector<std::string> coordinates;
+    MultivariateFunction length;
+    /** -dl/dq for each coordinate; none: they follow from the length. */
+    std::vector<MultivariateFunction> momentArms;
+    /** Of the coordinates, then of their speeds; none: it follows from the moment arms. */
+    std::optional<MultivariateFunction> lengtheningSpeed;
+};
+
 struct MusclePath {
     std::vector<PathPoint> points;
     std::vector<PathWrap> wraps;
     /** The wraps of one segment follow each other along the path as they do in the list. */
     bool areWrapsInOrder = false;
+    /** In place of points and wraps. */
+    std::optional<PathFunctions> functions;
     int line = 0;
 };
 
@@ -216,13 +266,168 @@ struct PathSpring {
     int line = 0;
 };
 
+/** Whose length is known and whose force is not. */
+struct NoTension {};
+
+/** tension = maxForce * curve(length / restingLength) while longer than that. */
+struct LigamentTension {
+    double restingLength = 0.0;
+    double maxForce = 0.0;
+    ScalarFunction curve;
+};
+
+/** Blankevoort and Huiskes (1991), Eqn. 1, damped. */
+struct BlankevoortTension {
+    double slackLength = 0.0;
+    double stiffness = 0.0;  ///< [N] per unit of strain
+    double transitionStrain = 0.0;
+    double damping = 0.0;  ///< [N s]
+};
+
+/** tension = optimalForce * control. */
+struct ControlledTension {
+    double optimalForce = 1.0;
+    std::array<double, 2> controlRange{-std::numeric_limits<double>::infinity(),
+                                       std::numeric_limits<double>::infinity()};
+};
+
+/** A force along a path that is neither a muscle nor a path spring. */
+struct PathForce {
+    std::string name;
+    /** The element's type in the file, for example Ligament. */
+    std::string type;
+    bool appliesForce = true;
+    MusclePath path;
+    std::variant<NoTension, LigamentTension, BlankevoortTension, ControlledTension> tension;
+    int line = 0;
+};
+
+/** @name Forces without a path */
+///@{
+/** Springs and dampers that set in over `transition` beyond either limit. SI units, radians. */
+struct CoordinateLimitForce {
+    std::string coordinate;
+    double upperLimit = 0.0, upperStiffness = 0.0;
+    double lowerLimit = 0.0, lowerStiffness = 0.0;
+    double damping = 0.0;
+    double transition = 0.0;
+};
+
+/** force = -stiffness (q - restLength) - viscosity qdot */
+struct CoordinateSpringForce {
+    std::string coordinate;
+    double stiffness = 0.0;
+    double restLength = 0.0;
+    double viscosity = 0.0;
+};
+
+/** Six springs and dampers between two frames: about x, y, z, then along them. */
+struct BushingForce {
+    std::string body1;
+    Pose X_B1F;
+    std::string body2;
+    Pose X_B2F;
+    std::array<double, 6> stiffness{};
+    std::array<double, 6> damping{};
+};
+
+struct PointToPointSpring {
+    std::string body1;
+    Vec3 point1 = Vec3::Zero();
+    std::string body2;
+    Vec3 point2 = Vec3::Zero();
+    double stiffness = 0.0;
+    double restLength = 0.0;
+};
+
+/** force = optimalForce * control; with a time constant the control is that of an activation, which is multiplied. */
+struct CoordinateActuator {
+    std::string coordinate;
+    double optimalForce = 1.0;
+    std::array<double, 2> controlRange{-std::numeric_limits<double>::infinity(),
+                                       std::numeric_limits<double>::infinity()};
+    std::optional<double> activationTime;
+    double defaultActivation = 0.0;
+};
+
+struct ContactMaterial {
+    double stiffness = 0.0;
+    double dissipation = 0.0;
+    double staticFriction = 0.0, dynamicFriction = 0.0, viscousFriction = 0.0;
+};
+
+/** Hunt and Crossley (1975), between all of its geometries. */
+struct HuntCrossleyContact {
+    struct Surface {
+        /** Index into ModelDescription::contactGeometries. */
+        std::size_t geometry = 0;
+        ContactMaterial material;
+    };
+    std::vector<Surface> surfaces;
+    double transitionVelocity = 0.01;
+};
+
+/** A sphere on a half space, smoothed (Serrancoli et al. 2019). */
+struct SmoothSphereContact {
+    /** Indices into ModelDescription::contactGeometries. */
+    std::size_t sphere = 0, halfSpace = 0;
+    ContactMaterial material;
+    double transitionVelocity = 0.01;
+    double constantContactForce = 1e-5;
+    double hertzSmoothing = 300.0;
+    double huntCrossleySmoothing = 50.0;
+};
+
+struct BodyForce {
+    std::string name;
+    bool appliesForce = true;
+    std::variant<CoordinateLimitForce, CoordinateSpringForce, BushingForce, PointToPointSpring, CoordinateActuator,
+                 HuntCrossleyContact, SmoothSphereContact>
+        law;
+    int line = 0;
+};
+///@}
+
+/** What a controller tells an actuator or a muscle, as a function of time. */
+struct PrescribedControl {
+    std::string actuator;
+    ScalarFunction control;
+    int line = 0;
+};
+
+/** Its points have x >= 0. */
+struct HalfSpaceShape {};
+
+/** A surface that contact forces and paths may use. */
+struct ContactGeometry {
+    std::string name;
+    std::string body;
+    Pose X_BS;
+    std::variant<SphereShape, CylinderShape, EllipsoidShape, TorusShape, HalfSpaceShape> shape;
+    int line = 0;
+};
+
+/** What an element that is left out would change. */
+enum class Effect {
+    None,
+    Forces,  ///< and so the motion of a simulation
+    Motion   ///< which poses there are, and so lengths
+};
+
 /** Elements of one type in owners of one type that were read over, and why. */
 struct SkippedElements {
     std::string element;
     std::string owner;
     std::string reason;
+    Effect effect = Effect::None;
     int firstLine = 0;
     int count = 0;
+};
+
+/** Something that the file says and that was read as something else. */
+struct ReadingNote {
+    int line = 0;
+    std::string text;
 };
 
 struct ModelDescription {
@@ -237,14 +442,23 @@ struct ModelDescription {
     std::vector<WrapObject> wrapObjects;
     std::vector<Muscle> muscles;
     std::vector<PathSpring> springs;
+    /** The other forces along paths. */
+    std::vector<PathForce> pathForces;
+    std::vector<BodyForce> bodyForces;
+    std::vector<PrescribedControl> controls;
+    std::vector<ContactGeometry> contactGeometries;
     std::vector<SkippedElements> skipped;
+    std::vector<ReadingNote> notes;
 };
 
 /** The body, coordinate, muscle, spring or wrap object of a name; null if there is none. */
 const Body* findBody(const ModelDescription& model, const std::string& name);
 const Coordinate* findCoordinate(const ModelDescription& model, const std::string& name);
+/** Whether a coordinate is an angle: it drives one of its joint's axes of rotation. False for unknown names. */
+bool isRotational(const ModelDescription& model, const std::string& coordinate);
 const Muscle* findMuscle(const ModelDescription& model, const std::string& name);
 const PathSpring* findSpring(const ModelDescription& model, const std::string& name);
+const PathForce* findPathForce(const ModelDescription& model, const std::string& name);
 const WrapObject* findWrapObject(const ModelDescription& model, const std::string& name);
 
 }  // namespace tautline::models

@@ -3,7 +3,9 @@
 #include <Simbody.h>
 
 #include <memory>
+#include <optional>
 
+#include "tautline/models/function_based_path.h"
 #include "tautline/models/model_builder.h"
 #include "tautline/models/path_start.h"
 #include "tautline/models/wrap_binding.h"
@@ -40,7 +42,24 @@ public:
         std::vector<BoundWrap> wraps;
         PathStart start;
     };
-    /** What muscles and springs have in common; valid as long as the system. */
+    /** Of a PathForce. */
+    struct PathForceSlot {
+        std::string name;
+        /** "/forceset/<name>". */
+        std::string path;
+        Cable cable;
+        CableForce force;
+        std::vector<BoundWrap> wraps;
+        PathStart start;
+    };
+    /** Of a muscle or any other force whose path is given by functions: nothing pulls along it. */
+    struct FunctionPathSlot {
+        std::string name;
+        /** "/forceset/<name>". */
+        std::string path;
+        FunctionBasedPath function;
+    };
+    /** What all forces along cables have in common; valid as long as the system. */
     struct PathView {
         const std::string& name;
         const std::string& path;
@@ -61,7 +80,9 @@ public:
     const std::vector<MuscleSlot>& getMuscles() const { return m_muscles; }
     std::vector<MuscleSlot>& updMuscles() { return m_muscles; }
     const std::vector<SpringSlot>& getSprings() const { return m_springs; }
-    /** The muscles, then the springs, each in the order of the file. */
+    const std::vector<PathForceSlot>& getPathForces() const { return m_pathForces; }
+    const std::vector<FunctionPathSlot>& getFunctionPaths() const { return m_functionPaths; }
+    /** The muscles, then the springs, then the other forces along cables, each in the order of the file. */
     std::vector<PathView> getPaths() const;
 
     /** Realizes the topology and returns a state in the model's default pose. Call it once everything has been added to
@@ -70,6 +91,9 @@ public:
     /** Sets the fibers of all muscles to where they and their tendons pull alike at rest, in the State's pose and at
     its activations. @return what was found, muscle by muscle. Realizes the State to Position. */
     std::vector<MuscleEquilibrium> equilibrateMuscles(SimTK::State& state) const;
+    /** @throws ModelError with the coordinate and its value if a joint has lost a direction to move in, in this pose:
+    no simulation can start there. Stage: Position. */
+    void requireRegularPose(const SimTK::State& state) const;
 
     /** Moment arm -dl/dq of a muscle about a coordinate [m], coupled ones moving along. Needs Stage::Position. */
     double calcMomentArm(const SimTK::State& state, const MuscleSlot& muscle, const std::string& coordinate) const {
@@ -83,18 +107,23 @@ public:
 private:
     Cable addCable(const ModelDescription& description, const std::string& kind, const std::string& name,
                    const MusclePath& path, const std::vector<BoundWrap>& wraps);
-    void addSpring(const ModelDescription& description, const PathSpring& spring, const std::vector<BoundWrap>& wraps);
-    void addMuscle(const ModelDescription& description, const models::Muscle& muscle,
-                   const std::vector<BoundWrap>& wraps);
+    /** A cable, or a function of coordinates. */
+    template <class Owner>
+    void addOwner(const ModelDescription& description, const Owner& owner, const std::vector<BoundWrap>& wraps);
+    void add(const ModelDescription& description, const models::Muscle& muscle, const std::vector<BoundWrap>& wraps);
+    void add(const ModelDescription& description, const PathSpring& spring, const std::vector<BoundWrap>& wraps);
+    void add(const ModelDescription& description, const PathForce& force, const std::vector<BoundWrap>& wraps);
 
     SimTK::MultibodySystem m_system;
     SimTK::SimbodyMatterSubsystem m_matter;
     SimTK::GeneralForceSubsystem m_forces;
     CableSubsystem m_cables;
     BuiltModel m_model;
-    std::vector<CoordinateCoupler> m_couplers;
     std::vector<MuscleSlot> m_muscles;
     std::vector<SpringSlot> m_springs;
+    std::vector<PathForceSlot> m_pathForces;
+    std::vector<FunctionPathSlot> m_functionPaths;
+    std::optional<SimTK::GeneralContactSubsystem> m_contacts;
 };
 
 }  // namespace tautline::models

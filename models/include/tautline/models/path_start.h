@@ -10,6 +10,6 @@ namespace tautline::models {
 
 /** The starts that a file gives for the wraps of a path; empty if it gives none. The points are put onto their surfaces
 and the directions made tangent. */
-PathStart makePathStart(const MusclePath& path, const std::vector<BoundWrap>& wraps, const Cable& cable);
+PathStart makePathStart(const std::vector<BoundWrap>& wraps, const Cable& cable);
 
 }  // namespace tautline::models
