@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tautline/models/osim_reader.h"
 
-#include <fstream>
 #include <sstream>
 
 #include "read_bodies.h"
@@ -11,6 +10,7 @@
 #include "read_forces.h"
 #include "read_joints.h"
 #include "read_paths.h"
+#include "read_text.h"
 #include "read_wrap_objects.h"
 #include "tautline/models/function_based_path.h"
 
@@ -116,14 +116,6 @@ std::string listUnknown(const std::string& fileName, const std::vector<UnknownEl
         list += (list.empty() ? "" : "\n") + std::string(ModelError(fileName, element.line, what).what());
     }
     return list;
-}
-
-std::string readText(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream || std::filesystem::is_directory(file)) throw ModelError(file.string() + ": the file cannot be read");
-    return text.str();
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ std::pair<std::string, double> parseAssignment(const std::string& text) {
 
 std::map<std::string, Excitation> makeExcitations(const ExcitationOptions& options,
                                                   const std::vector<std::string>& muscles, int& numDefault) {
-    std::map<std::string, Excitation> excitations;
+    std::map<std::string, Excitation> excitations = options.prescribed;
     if (!options.file.empty()) readFile(options.file, muscles, excitations);
     std::vector<std::string> assigned;
     for (const std::string& text : options.assignments) {

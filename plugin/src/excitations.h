@@ -11,10 +11,12 @@ namespace tautline {
 /** Excitation of a muscle as a function of time [s], within [0, 1]. */
 using Excitation = std::function<double(double)>;
 
-/** What the command line says about excitations. */
+/** What the command line and the model say about excitations. */
 struct ExcitationOptions {
     std::vector<std::string> assignments;  ///< NAME=VALUE each; they win over the file
     std::filesystem::path file;            ///< a storage file with a column per muscle; empty: none
+    /** Of the model's controllers; file and command line win over them. */
+    std::map<std::string, Excitation> prescribed;
 };
 
 inline constexpr double kDefaultExcitation = 0.05;

@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_command.h"
 
+#include <algorithm>
+
 #include "plots.h"
 #include "run_report.h"
 #include "simulation.h"
 #include "tautline/models/osim_reader.h"
 
 namespace tautline {
+
+namespace {
+
+/** Those of muscles that a controller of the model drives, kept in [0, 1]. */
+std::map<std::string, Excitation> findPrescribedExcitations(const models::ModelDescription& description) {
+    std::map<std::string, Excitation> excitations;
+    for (const models::PrescribedControl& control : description.controls)
+        if (findMuscle(description, control.actuator))
+            excitations[control.actuator] = [function = control.control](double time) {
+                return std::clamp(function.calcValue(time), 0.0, 1.0);
+            };
+    return excitations;
+}
+
+}  // namespace
 
 void RunCommand::declare(CLI::App& app) {
     app.option_defaults()->take_last();  // so that what a script gives can be overridden
@@ -32,7 +49,9 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
     std::vector<std::string> names;
     for (const auto& slot : model.getMuscles()) names.push_back(slot.name);
     int numDefault = 0;
-    const auto muscleExcitations = makeExcitations(excitations, names, numDefault);
+    ExcitationOptions given = excitations;
+    given.prescribed = findPrescribedExcitations(description);
+    const auto muscleExcitations = makeExcitations(given, names, numDefault);
     printModelNotes(description, model, out);
     if (numDefault > 0)
         out << "excitation: " << kDefaultExcitation << " for "

@@ -327,6 +327,8 @@ SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excita
     for (const ModelSystem::PathView& path : paths) path.cable.resetStatistics();
     setExcitations(model, excitations);
     State state = model.makeDefaultState();
+    model.getSystem().realize(state, Stage::Position);
+    model.requireRegularPose(state);
     startPaths(model, state, result);
     const std::vector<MuscleEquilibrium> starts = model.equilibrateMuscles(state);
     Recorder recorder(model, result);

@@ -49,21 +49,21 @@ TEST(DataScholz, TheExampleHasThePathOfTheCoreBitForBit) {
     ASSERT_EQ(path.wraps.size(), 6u);
 
     const char* names[] = {"cylinder1", "ellipsoid1", "ellipsoid2", "torus1", "torus2", "sphere1"};
-    const auto findPose = [&](const std::string& body) {
-        return toPose(model.getModel().getBody(body).getBodyTransform(state));
+    const auto findPose = [&](const std::string& body) -> const SimTK::Transform& {
+        return model.getModel().getBody(body).getBodyTransform(state);
     };
     PathProblem problem;
     PathPose pose;
     const auto addPoint = [&](const PathPoint& point) {
         problem.addPoint(point.name);
-        pose.X_GE.push_back(findPose(point.body) * Pose(point.location));
+        pose.X_GE.emplace_back(toEigen(findPose(point.body) * toSimTK(point.location)));
     };
     addPoint(path.points[0]);
     for (std::size_t i = 0; i < 6; ++i) {
         const ContactGeometry& geometry = findGeometry(description, names[i]);
         EXPECT_EQ(description.wrapObjects.at(path.wraps[i].wrapObject).name, names[i]);
         problem.addObstacle(names[i], std::visit(SurfaceMaker(), geometry.shape), path.wraps[i].hint);
-        pose.X_GE.push_back(findPose(geometry.body) * geometry.X_BS);
+        pose.X_GE.push_back(toPose(findPose(geometry.body) * toTransform(geometry.X_BS)));
     }
     addPoint(path.points[1]);
     const PathSolution solution = solvePath(problem, pose);

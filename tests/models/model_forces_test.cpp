@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Forces that models carry, each against its published law written out here, or against the slope of its energy. */
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "model_test_support.h"
+#include "tautline/models/external_loads.h"
 #include "tautline/models/model_system.h"
 
 namespace tautline::models::testing {
@@ -233,6 +238,64 @@ TEST(ModelForces, ASmoothedSphereComesNearTheSharpOne) {
     const double faded = smooth * (0.5 + 0.5 * std::tanh(50 * (v + 2 / (3 * 0.5))));
     EXPECT_NEAR(ball.calcForce(0.1 - x, 0.0), faded, 1e-6 * faded);
     EXPECT_LT(std::abs(ball.calcForce(0.3, 0.0)), 1e-9);
+}
+
+// ---- external loads
+
+/** A file in the folder of temporary files, removed at the end. */
+struct TemporaryFile {
+    explicit TemporaryFile(const std::string& text)
+        : path(std::filesystem::temp_directory_path() / ("tautline_loads_" + std::to_string(getpid()) + ".xml")) {
+        std::ofstream(path) << text;
+    }
+    ~TemporaryFile() { std::filesystem::remove(path); }
+    std::filesystem::path path;
+};
+
+const std::string groundReaction =
+    "<OpenSimDocument Version=\"40000\"><ExternalLoads name=\"loads\"><objects>\n<ExternalForce name=\"push\">"
+    "<applied_to_body>one</applied_to_body><force_expressed_in_body>ground</force_expressed_in_body>"
+    "<point_expressed_in_body>ground</point_expressed_in_body><force_identifier>plate_v</force_identifier>"
+    "<point_identifier>plate_p</point_identifier><torque_identifier>plate_m</torque_identifier></ExternalForce>"
+    "</objects><datafile>plate.mot</datafile></ExternalLoads></OpenSimDocument>";
+
+/** One revolute body of unit inertia: its acceleration is the moment about z over the inertia about the pin. */
+TEST(ModelForces, AnExternalLoadActsAtItsPointInGround) {
+    const TemporaryFile file(groundReaction);
+    const ModelDescription description = readNew(makePinModel());
+    const ExternalLoads loads = readExternalLoads(file.path, description);
+    EXPECT_EQ(loads.dataFile, "plate.mot");
+    ASSERT_EQ(loads.forces.size(), 1u);
+    ModelSystem model(description);
+    const TimeSeries data{{"time", "plate_vx", "plate_vy", "plate_vz", "plate_px", "plate_py", "plate_pz", "plate_mx",
+                           "plate_my", "plate_mz"},
+                          {{0, 1, 2, 0, 0.1, 0.2, 0, 0, 0, 0.5}, {1, 3, 2, 0, 0.3, 0.2, 0, 0, 0, 0.5}}};
+    addExternalLoads(loads, data, model.getModel(), model.updForces());
+    SimTK::State state = model.makeDefaultState();
+    for (const double time : {-1.0, 0.0, 0.25, 1.0, 7.0}) {
+        state.setTime(time);
+        model.getModel().setCoordinate(state, "q", 0.4);
+        model.getSystem().realize(state, SimTK::Stage::Acceleration);
+        const double share = std::min(std::max(time, 0.0), 1.0);
+        const double fx = 1 + 2 * share, fy = 2, px = 0.1 + 0.2 * share, py = 0.2;
+        EXPECT_NEAR(state.getUDot()[0], px * fy - py * fx + 0.5, 1e-13) << time;
+    }
+}
+
+TEST(ModelForces, AnExternalLoadWithoutItsColumnsIsRefused) {
+    const TemporaryFile file(groundReaction);
+    const ModelDescription description = readNew(makePinModel());
+    ModelSystem model(description);
+    const TimeSeries data{{"time", "plate_vx", "plate_vy"}, {{0, 1, 2}}};
+    try {
+        addExternalLoads(readExternalLoads(file.path, description), data, model.getModel(), model.updForces());
+        FAIL() << "not refused";
+    } catch (const ModelError& error) {
+        EXPECT_NE(
+            std::string(error.what()).find(":2: ExternalForce 'push': 2 columns begin with 'plate_v' instead of 3"),
+            std::string::npos)
+            << error.what();
+    }
 }
 
 // ---- paths by functions

@@ -98,6 +98,30 @@ TEST(Program, BadInputLeavesNoResults) {
     EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
+TEST(Program, LeavesOutWhatItIsToldToIgnoreAndSaysWhatThatChanges) {
+    const std::string file = TAUTLINE_SOURCE_DIR "/models/rejected/unknown_force.osim";
+    const std::string options = " --duration 0.01 --out " + makeFolder("ignored").string();
+    const Outcome refused = runProgram("run " + file + options);
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.text.find("unknown force ElasticFoundationForce 'floor'"), std::string::npos) << refused.text;
+    for (const char* ignored : {"floor", "ElasticFoundationForce"}) {
+        const Outcome read = runProgram("run " + file + options + " --ignore " + ignored);
+        EXPECT_EQ(read.exitCode, 0) << read.text;
+        EXPECT_NE(read.text.find("left out, changes forces:\n  ignored as asked: 1 ElasticFoundationForce in ForceSet"),
+                  std::string::npos)
+            << read.text;
+        EXPECT_EQ(read.text.find("changes nothing"), std::string::npos) << "nothing of that kind is in the file";
+    }
+}
+
+TEST(Program, RefusesAStartInGimbalLock) {
+    const Outcome outcome = runProgram("run " TAUTLINE_SOURCE_DIR "/models/accepted/singular_start.osim --out " +
+                                       makeFolder("singular").string());
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_NE(outcome.text.find("coordinate 'rz' is at 0.000000 where it moves nothing"), std::string::npos)
+        << outcome.text;
+}
+
 TEST(Program, SimulatesTheElbowAndWritesStorageFiles) {
     const std::filesystem::path folder = makeFolder("elbow");
     const Outcome outcome = runProgram("run " + kElbow + " --duration 0.2 --out " + folder.string());

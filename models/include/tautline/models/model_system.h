@@ -75,6 +75,8 @@ public:
     ModelSystem& operator=(const ModelSystem&) = delete;
 
     SimTK::MultibodySystem& updSystem() { return m_system; }
+    /** For forces of one's own, before makeDefaultState(). */
+    SimTK::GeneralForceSubsystem& updForces() { return m_forces; }
     const SimTK::MultibodySystem& getSystem() const { return m_system; }
     const BuiltModel& getModel() const { return m_model; }
     const std::vector<MuscleSlot>& getMuscles() const { return m_muscles; }
