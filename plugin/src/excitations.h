@@ -16,7 +16,7 @@ struct ExcitationOptions {
     std::vector<std::string> assignments;  ///< NAME=VALUE each; they win over the file
     std::filesystem::path file;            ///< a storage file with a column per muscle; empty: none
     /** Of the model's controllers; file and command line win over them. */
-    std::map<std::string, Excitation> prescribed;
+    std::map<std::string, Excitation> prescribed = {};
 };
 
 inline constexpr double kDefaultExcitation = 0.05;
