@@ -38,6 +38,7 @@ nothing moves. Springs of equal stiffness end up equally long, and the polyline 
 class TautPolyline {
 public:
     static constexpr double kTouching = 1e-6;  ///< in sizes: higher nodes are free
+    static constexpr double kSunk = 1e-10;     ///< in sizes: lower ones are lifted
 
     /** @param course   from the first fixed end to the last, clear of the bodies or nearly so
     @param count    of springs */
@@ -99,11 +100,11 @@ private:
 
     /** Onto the surface of the body that it is in; of the next one, if it is then in that. */
     Vec3 keepOutside(Vec3 p) const {
-        constexpr int kMaxRounds = 30;
+        constexpr int kMaxRounds = 10;
         for (int round = 0; round < kMaxRounds; ++round) {
             bool isOutside = true;
             for (const Body& body : m_bodies) {
-                if (!(body.calcHeight(p) < -1e-12 * body.surface->getSize())) continue;
+                if (!(body.calcHeight(p) < -kSunk * body.surface->getSize())) continue;
                 p = body.findNearestPoint(p);
                 isOutside = false;
             }
@@ -234,8 +235,8 @@ inline double findLowestSample(const Surface& surface, const Vec3& A, const Vec3
     return least;
 }
 
-/** The string from A to B that falls taut from the course over one body in its frame S. */
-inline TautString findTautString(const Surface& surface, const std::vector<Vec3>& course, int springs = 120) {
+/** The string from A to B that falls taut from the course over one body in its frame S, made of so many springs. */
+inline TautString findTautStringOf(int springs, const Surface& surface, const std::vector<Vec3>& course) {
     constexpr double kAccuracy = 3e-6, kClear = -1e-7;  // the last in sizes
     const Vec3 A = course.front(), B = course.back();
     TautPolyline polyline({{&surface, Pose()}}, course, springs);
@@ -274,6 +275,33 @@ inline TautString findTautString(const Surface& surface, const std::vector<Vec3>
     string.kind = TautString::Kind::OneArc;
     string.length = arc.calcLength();
     string.middle = arc.calcPoint(0.5);
+    return string;
+}
+
+/** Whether a string at rest returns when it is pushed sideways: one on a saddle slides off, however slowly it did. */
+inline bool isHeld(const Surface& surface, const TautString& string) {
+    constexpr double kPush = 0.05, kSame = 1e-4;  // in sizes; of the length
+    std::vector<Vec3> pushed = string.nodes;
+    const std::size_t last = pushed.size() - 1;
+    for (std::size_t i = 1; i < last; ++i) {
+        Vec3 N;
+        surface.calcHeightAndNormal(string.nodes[i], N);
+        const Vec3 across = (string.nodes[i + 1] - string.nodes[i - 1]).cross(N).normalized();
+        const double part = static_cast<double>(i) / static_cast<double>(last);
+        pushed[i] += kPush * surface.getSize() * std::sin(kPi * part) * across;
+    }
+    const TautString again = findTautStringOf(static_cast<int>(last), surface, pushed);
+    return again.kind == string.kind && std::abs(again.length / string.length - 1) < kSame;
+}
+
+/** The same, if it is held; one that does not come to rest may with more springs. */
+inline TautString findTautString(const Surface& surface, const std::vector<Vec3>& course, int springs = 120) {
+    TautString string;
+    for (const double factor : {1.0, 1.4, 2.0}) {
+        string = findTautStringOf(static_cast<int>(factor * springs), surface, course);
+        if (string.kind != TautString::Kind::Unknown) break;
+    }
+    if (string.kind == TautString::Kind::OneArc && !isHeld(surface, string)) string.kind = TautString::Kind::Unknown;
     return string;
 }
 
