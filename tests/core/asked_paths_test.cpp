@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/** A hint is a demand: no random scene of any way of asking is solved elsewhere than asked without a word, and nearly
+every path that exists is found (support/asked_scenes.h). */
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "support/asked_scenes.h"
+
+namespace tautline {
+namespace {
+
+using testing::AskedScene;
+using testing::AskedSceneMaker;
+using testing::Asking;
+using testing::Outcome;
+
+void runScenes(Asking asking, int count, unsigned firstSeed) {
+    std::array<int, testing::kNumOutcomes> counts{};
+    for (int i = 0; i < count; ++i) {
+        const unsigned seed = firstSeed + static_cast<unsigned>(i);
+        const AskedScene scene = AskedSceneMaker(asking, seed).getScene();
+        const PathSolution path = solvePath(scene.problem, scene.pose);
+        const Outcome outcome = judge(scene, path);
+        ++counts[static_cast<int>(outcome)];
+        EXPECT_NE(outcome, Outcome::Silent) << "seed " << seed << ", " << scene.description << "; got " << path.length;
+    }
+    const auto get = [&counts](Outcome outcome) { return counts[static_cast<int>(outcome)]; };
+    const int found = get(Outcome::Found) + get(Outcome::Another);
+    const int existing = found + get(Outcome::Missed) + get(Outcome::Silent);
+    EXPECT_GE(found, 0.99 * existing);
+    EXPECT_LE(get(Outcome::Unknown), 0.03 * count) << "too few are judged";
+}
+
+TEST(AskedPaths, RunNearThePoint) {
+    runScenes(Asking::Near, 200, 1);
+}
+TEST(AskedPaths, PassOnTheSide) {
+    runScenes(Asking::Side, 200, 1);
+}
+TEST(AskedPaths, TurnAsOften) {
+    runScenes(Asking::Winding, 200, 1);
+}
+TEST(AskedPaths, GoThroughTheHole) {
+    runScenes(Asking::Hole, 200, 1);
+}
+
+TEST(LongAskedPaths, RunNearThePoint) {
+    runScenes(Asking::Near, 10000, 100001);
+}
+TEST(LongAskedPaths, PassOnTheSide) {
+    runScenes(Asking::Side, 10000, 100001);
+}
+TEST(LongAskedPaths, TurnAsOften) {
+    runScenes(Asking::Winding, 10000, 100001);
+}
+TEST(LongAskedPaths, GoThroughTheHole) {
+    runScenes(Asking::Hole, 10000, 100001);
+}
+
+}  // namespace
+}  // namespace tautline
