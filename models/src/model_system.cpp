@@ -5,25 +5,14 @@
 #include <set>
 
 #include "body_forces.h"
+#include "model_skeleton.h"
 #include "path_force_laws.h"
+#include "tautline/models/coordinate_coupling.h"
 #include "tautline/models/path_points.h"
 #include "tautline/simbody/conversions.h"
 
 namespace tautline::models {
 namespace {
-
-/** A pose is sampled in a system of its own, since muscles must be added before the topology is realized. */
-struct BindingSystem {
-    explicit BindingSystem(const ModelDescription& description)
-        : matter(system), forces(system), model(buildMultibody(description, matter)), state(system.realizeTopology()) {
-        system.realizeModel(state);
-    }
-    SimTK::MultibodySystem system;
-    SimTK::SimbodyMatterSubsystem matter;
-    SimTK::GeneralForceSubsystem forces;  // Simbody 3.7 cannot realize a matter subsystem without one
-    BuiltModel model;
-    SimTK::State state;
-};
 
 /** Where a moving point is on its body, its coordinate clipped to the range: past it the point rests. */
 std::shared_ptr<const MovingStation> makeStation(const MovingLocation& moving, const BuiltModel& model) {
@@ -98,7 +87,8 @@ ModelSystem::ModelSystem(const ModelDescription& description)
     : m_matter(m_system), m_forces(m_system), m_cables(m_system), m_model(buildMultibody(description, m_matter)) {
     addGravity(description, m_forces, m_model);
     addBodyForces(description, {m_system, m_forces, m_contacts, m_model});
-    const BindingSystem binding(description);
+    // Poses are sampled in a system of its own: muscles must be added before the topology is realized.
+    const ModelSkeleton binding(description);
     std::vector<const MusclePath*> paths;
     forEachOwner(description, [&](const auto& owner) { paths.push_back(&owner.path); });
     const auto wraps = bindWraps(description, paths, binding.model, binding.state);
@@ -213,21 +203,7 @@ double ModelSystem::calcMomentArm(const SimTK::State& state, const Cable& cable,
 std::vector<double> ModelSystem::calcMomentArms(const SimTK::State& state, const Cable& cable) const {
     SimTK::Vector unitForces;
     cable.calcUnitMobilityForces(state, unitForces);
-    const auto getForce = [&](const std::string& name) {
-        const auto& slot = m_model.getCoordinateSlot(name);
-        return unitForces[m_matter.getMobilizedBody(slot.body).getFirstUIndex(state) + slot.u];
-    };
-    std::vector<double> arms;
-    for (const std::string& coordinate : m_model.getCoordinateNames()) {
-        double arm = getForce(coordinate);
-        for (const CoordinateCoupler& coupler : m_model.getCouplers())
-            for (std::size_t i = 0; i < coupler.independentCoordinates.size(); ++i)
-                if (coupler.independentCoordinates[i] == coordinate)
-                    arm += m_model.calcCouplingSlope(state, coupler, static_cast<int>(i)) *
-                           getForce(coupler.dependentCoordinate);
-        arms.push_back(arm);
-    }
-    return arms;
+    return CoordinateCoupling(m_model, state).calcEffectiveArms(unitForces);
 }
 
 }  // namespace tautline::models

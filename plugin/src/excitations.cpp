@@ -5,6 +5,7 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "name_pattern.h"
 #include "storage_file.h"
 
 namespace tautline {
@@ -17,12 +18,6 @@ void requireUnitInterval(double value, const std::string& what) {
 
 bool isMuscle(const std::vector<std::string>& muscles, const std::string& name) {
     return std::find(muscles.begin(), muscles.end(), name) != muscles.end();
-}
-
-std::string listNames(const std::vector<std::string>& muscles) {
-    std::string names;
-    for (const std::string& name : muscles) names += (names.empty() ? "" : ", ") + name;
-    return names;
 }
 
 /** Linear between the rows of two columns of a table. */

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "run_command.h"
+#include "solve_command.h"
 
 int main(int argc, char** argv) {
     CLI::App app{"Tautline: shortest paths of muscles and cables over smooth surfaces, in Simbody"};
@@ -13,9 +14,14 @@ int main(int argc, char** argv) {
     tautline::RunCommand run;
     CLI::App* runApp = app.add_subcommand("run", "simulate a model file forward under gravity");
     run.declare(*runApp);
+    tautline::SolveCommand solve;
+    CLI::App* solveApp =
+        app.add_subcommand("solve", "lengths, contacts and moment arms of a model's paths along a motion or in a pose");
+    solve.declare(*solveApp);
     CLI11_PARSE(app, argc, argv);
     try {
-        return run.run(std::cout, isatty(STDOUT_FILENO) == 1);
+        const bool isTerminal = isatty(STDOUT_FILENO) == 1;
+        return solveApp->parsed() ? solve.run(std::cout, isTerminal) : run.run(std::cout, isTerminal);
     } catch (const std::exception& error) {
         std::cout << std::flush;
         std::cerr << "tautline: " << error.what() << "\n";

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "model_report.h"
 #include "plots.h"
+#include "progress_bar.h"
 #include "run_report.h"
 #include "simulation.h"
 #include "tautline/models/osim_reader.h"
@@ -52,7 +54,10 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
     ExcitationOptions given = excitations;
     given.prescribed = findPrescribedExcitations(description);
     const auto muscleExcitations = makeExcitations(given, names, numDefault);
-    printModelNotes(description, model, out);
+    printModelSummary(description, out);
+    printReadingNotes(description, out);
+    printMuscleTypes(description, out);
+    printWrapNotes(model, out);
     if (numDefault > 0)
         out << "excitation: " << kDefaultExcitation << " for "
             << (numDefault == static_cast<int>(names.size()) ? "all " : "") << numDefault << " muscles\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "storage_file.h"
 
+#include <cctype>
 #include <charconv>
 #include <fstream>
 #include <sstream>
@@ -26,6 +27,17 @@ double toNumber(const std::string& word, const std::filesystem::path& file, int 
     const auto result = std::from_chars(begin, end, value);
     if (result.ec != std::errc() || result.ptr != end) fail(file, line, "'" + word + "' is not a number");
     return value;
+}
+
+/** "inDegrees=yes" in any spelling that OpenSim takes: spaces around the sign, capitals. */
+void readUnits(const std::string& line, StorageTable& table) {
+    std::string plain;
+    for (const char c : line)
+        if (!std::isspace(static_cast<unsigned char>(c)))
+            plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (plain.rfind("indegrees=", 0) != 0) return;
+    table.isInDegrees = plain == "indegrees=yes" || plain == "indegrees=true" || plain == "indegrees=1";
+    table.saysUnits = true;
 }
 
 }  // namespace
@@ -66,6 +78,7 @@ StorageTable readStorage(const std::filesystem::path& file) {
     std::ifstream stream(file);
     if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
     StorageTable table;
+    table.saysUnits = false;
     std::string line;
     int number = 0;
     bool isHeader = true;
@@ -74,7 +87,7 @@ StorageTable readStorage(const std::filesystem::path& file) {
         const std::vector<std::string> words = splitWords(line);
         if (words.empty()) continue;
         if (isHeader) {
-            if (words[0] == "inDegrees=yes") table.isInDegrees = true;
+            readUnits(line, table);
             if (table.name.empty()) table.name = words[0];
             isHeader = words[0] != "endheader";
         } else if (table.labels.empty()) {

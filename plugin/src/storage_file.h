@@ -12,6 +12,7 @@ struct StorageTable {
     std::vector<std::string> labels;        ///< the first is "time"
     std::vector<std::vector<double>> rows;  ///< as long as labels each
     bool isInDegrees = false;
+    bool saysUnits = true;  ///< false: a file was read whose header has no inDegrees
 };
 
 /** The shortest text that reads back as the same double. */

@@ -97,13 +97,15 @@ public:
     no simulation can start there. Stage: Position. */
     void requireRegularPose(const SimTK::State& state) const;
 
-    /** Moment arm -dl/dq of a muscle about a coordinate [m], coupled ones moving along. Needs Stage::Position. */
+    /** Effective moment arm -dl/dq of a muscle about a coordinate [m], as CoordinateCoupling defines it. Stage:
+    Position. */
     double calcMomentArm(const SimTK::State& state, const MuscleSlot& muscle, const std::string& coordinate) const {
         return calcMomentArm(state, muscle.cable, coordinate);
     }
     /** The same for any cable of the system. */
     double calcMomentArm(const SimTK::State& state, const Cable& cable, const std::string& coordinate) const;
-    /** Those about all coordinates, in the order of BuiltModel::getCoordinateNames(), at the cost of one. */
+    /** Those about all coordinates, in the order of BuiltModel::getCoordinateNames(). For several cables in one pose, a
+    CoordinateCoupling of one's own saves time. */
     std::vector<double> calcMomentArms(const SimTK::State& state, const Cable& cable) const;
 
 private:

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model_report.h"
+
+#include <map>
+#include <string>
+
+namespace tautline {
+namespace {
+
+/** What was left out with one effect: a line for each reason. */
+void printSkipped(const models::ModelDescription& description, models::Effect effect, const char* heading,
+                  std::ostream& out) {
+    std::map<std::string, std::string> listOfReason;
+    for (const models::SkippedElements& skipped : description.skipped) {
+        if (skipped.effect != effect) continue;
+        std::string& list = listOfReason[skipped.reason];
+        list += (list.empty() ? "" : ", ") + std::to_string(skipped.count) + " " + skipped.element + " in " +
+                skipped.owner + " (line " + std::to_string(skipped.firstLine) + ")";
+    }
+    if (!listOfReason.empty()) out << heading << ":\n";
+    for (const auto& [reason, list] : listOfReason) out << "  " << reason << ": " << list << "\n";
+}
+
+}  // namespace
+
+void printModelSummary(const models::ModelDescription& description, std::ostream& out) {
+    std::size_t numCoordinates = 0;
+    for (const models::Joint& joint : description.joints) numCoordinates += joint.coordinates.size();
+    out << description.fileName << ": model '" << description.name << "', " << description.bodies.size() << " bodies, "
+        << numCoordinates << " coordinates, " << description.muscles.size() << " muscles";
+    if (!description.springs.empty()) out << ", " << description.springs.size() << " path springs";
+    if (!description.pathForces.empty()) out << ", " << description.pathForces.size() << " other forces along paths";
+    if (!description.bodyForces.empty()) out << ", " << description.bodyForces.size() << " forces without a path";
+    out << "\n";
+}
+
+void printReadingNotes(const models::ModelDescription& description, std::ostream& out) {
+    printSkipped(description, models::Effect::None, "left out, changes nothing", out);
+    printSkipped(description, models::Effect::Forces, "left out, changes forces", out);
+    printSkipped(description, models::Effect::Motion, "left out, may change poses, lengths and forces", out);
+    for (const models::ReadingNote& note : description.notes)
+        out << "note: " << description.fileName << ":" << note.line << ": " << note.text << "\n";
+}
+
+void printMuscleTypes(const models::ModelDescription& description, std::ostream& out) {
+    std::map<std::string, int> types;
+    std::map<std::string, std::string> notes;
+    for (const models::Muscle& muscle : description.muscles) {
+        ++types[muscle.type + ": the muscle model of " + muscle.model->getDescription()];
+        for (const std::string& note : muscle.notes) notes[note] += (notes[note].empty() ? "" : ", ") + muscle.name;
+    }
+    for (const auto& [type, count] : types) out << count << " " << type << ", with the file's parameters\n";
+    for (const auto& [note, muscles] : notes) out << "note: " << muscles << ": " << note << "\n";
+}
+
+void printWrapNotes(const models::ModelSystem& model, std::ostream& out) {
+    for (const auto& slot : model.getPaths())
+        for (const models::BoundWrap& wrap : slot.wraps)
+            if (wrap.numElsewhere > 0)
+                out << "note: " << slot.name << ": wrap " << wrap.wrap + 1 << " engages on segment " << wrap.segment + 1
+                    << " in " << wrap.numEngaged << " sampled poses, on others in " << wrap.numElsewhere
+                    << "; it is bound to segment " << wrap.segment + 1 << "\n";
+}
+
+}  // namespace tautline
