@@ -12,6 +12,19 @@ std::vector<double> getArguments(const BuiltModel& model, const SimTK::State& st
 
 }  // namespace
 
+BuiltModel BuiltModel::ofBodies(SimTK::SimbodyMatterSubsystem& matter,
+                                const std::map<std::string, SimTK::MobilizedBodyIndex>& bodies) {
+    for (const auto& [name, index] : bodies)
+        if (index < 0 || index >= matter.getNumBodies())
+            throw ModelError("body '" + name + "' is the mobilized body " + std::to_string(index) +
+                             ", but the system has only 0 to " + std::to_string(matter.getNumBodies() - 1));
+    BuiltModel built;
+    built.m_matter = &matter;
+    built.m_bodies = bodies;
+    built.m_bodies[kGroundName] = matter.getGround().getMobilizedBodyIndex();
+    return built;
+}
+
 SimTK::MobilizedBodyIndex BuiltModel::getBodyIndex(const std::string& name) const {
     const auto found = m_bodies.find(name);
     if (found == m_bodies.end()) throw ModelError("there is no body '" + name + "'");

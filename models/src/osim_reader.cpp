@@ -63,6 +63,15 @@ void collectOwnedFrames(Element& model, BodyParts& parts) {
     }
 }
 
+/** All that stands on bodies and pulls at them. */
+void readActingParts(Element& element, BodyParts& parts) {
+    readWrapObjects(parts);
+    readConstraints(element, parts.frames);
+    readContactGeometries(element, parts.frames);
+    readForces(element, parts.frames);
+    readControllers(element);
+}
+
 void skipWithoutEffect(Element& model) {
     model.skip({"defaults"}, "defaults are no part of the model");
     model.skip({"credits", "publications", "ModelVisualPreferences", "FrameGeometry"}, "says nothing about the motion");
@@ -83,13 +92,28 @@ void readModel(Element& element) {
     collectOwnedFrames(element, parts);
     readJoints(parts);
     repairMasslessEnds(model);
-    readWrapObjects(parts);
-    readConstraints(element, parts.frames);
-    readContactGeometries(element, parts.frames);
-    readForces(element, parts.frames);
-    readControllers(element);
+    readActingParts(element, parts);
     skipWithoutEffect(element);
     element.refuseUnknown();
+}
+
+void readHostForces(Element& document, const std::vector<std::string>& bodies) {
+    ModelDescription& model = document.updReading().model;
+    model.name = document.getName();
+    model.documentVersion = kLastVersion;
+    for (const std::string& name : bodies) {
+        model.bodies.emplace_back();
+        model.bodies.back().name = name;
+    }
+    BodyParts parts;
+    readPartsOfBodies(document, bodies, parts);
+    collectComponents(document, parts);
+    collectOwnedFrames(document, parts);
+    readActingParts(document, parts);
+    document.refuseUnknown();
+    for (const BodyForce& force : model.bodyForces)
+        throw ModelError(model.fileName, force.line,
+                         "force '" + force.name + "' has no path: the host adds such forces itself");
 }
 
 /** What leaving an element out would change. */
@@ -118,11 +142,24 @@ std::string listUnknown(const std::string& fileName, const std::vector<UnknownEl
     return list;
 }
 
+/** Calls read(), and refuses what is unknown all at once. */
+template <class Read>
+void readAll(Reading& reading, Read read) {
+    const std::string& fileName = reading.source.getFileName();
+    try {
+        read();
+    } catch (const ModelError& error) {
+        if (reading.unknown.empty()) throw;
+        throw UnknownElementsError(fileName, reading.unknown, error.what());
+    }
+    if (!reading.unknown.empty()) throw UnknownElementsError(fileName, reading.unknown);
+}
+
 }  // namespace
 
 UnknownElementsError::UnknownElementsError(const std::string& fileName, std::vector<UnknownElement> elements,
                                            const std::string& andThen)
-    : ModelError(listUnknown(fileName, elements) + (andThen.empty() ? "" : "\n" + andThen)),
+    : ModelError(listUnknown(fileName, elements) + (andThen.empty() ? "" : "\n" + andThen), elements.front().line),
       m_elements(std::move(elements)) {}
 
 ModelDescription readOsimText(std::string_view text, const std::string& fileName, const ReadingOptions& options) {
@@ -136,13 +173,20 @@ ModelDescription readOsimText(std::string_view text, const std::string& fileName
     model.documentVersion = readVersion(document, source.getRoot().attribute("Version").value());
     Element element = document.require("Model");
     document.refuseUnknown();
-    try {
-        readModel(element);
-    } catch (const ModelError& error) {
-        if (reading.unknown.empty()) throw;
-        throw UnknownElementsError(fileName, reading.unknown, error.what());
-    }
-    if (!reading.unknown.empty()) throw UnknownElementsError(fileName, reading.unknown);
+    readAll(reading, [&] { readModel(element); });
+    return model;
+}
+
+ModelDescription readForcesText(std::string_view text, const std::string& fileName,
+                                const std::vector<std::string>& bodies, const ReadingOptions& options) {
+    const XmlSource source(text, fileName);
+    ModelDescription model;
+    model.fileName = fileName;
+    Reading reading{source, options, model, {}};
+    Element document(reading, source.getRoot());
+    if (document.getTag() != "TautlineForces")
+        document.fail("the document is a " + document.getTag() + ", not TautlineForces");
+    readAll(reading, [&] { readHostForces(document, bodies); });
     return model;
 }
 

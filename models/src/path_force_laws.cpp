@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tautline/simbody/cable_forces.h"
+
 namespace tautline::models {
 namespace {
 
@@ -86,25 +88,32 @@ private:
     Control m_control;
 };
 
+struct ForceMaker {
+    SimTK::GeneralForceSubsystem& forces;
+    const Cable& cable;
+    const Control& control;
+
+    CableForce operator()(const NoTension&) const { return {forces, std::make_unique<NoTensionLaw>(cable)}; }
+    CableForce operator()(const LigamentTension& tension) const {
+        return {forces, std::make_unique<LigamentLaw>(cable, tension)};
+    }
+    CableForce operator()(const BlankevoortTension& tension) const {
+        return {forces, std::make_unique<BlankevoortLaw>(cable, tension)};
+    }
+    CableForce operator()(const ControlledTension& tension) const {
+        return {forces, std::make_unique<ControlledLaw>(cable, tension, control)};
+    }
+    CableForce operator()(const ExtensionTension& tension) const { return {forces, tension.makeLaw(cable)}; }
+    CableForce operator()(const PrescribedTension& prescribed) const {
+        return PrescribedTensionForce(forces, cable, prescribed.tension);
+    }
+};
+
 }  // namespace
 
 CableForce makePathForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, const PathForce& force,
                          const Control& control) {
-    struct Maker {
-        const Cable& cable;
-        const Control& control;
-        std::unique_ptr<CableForceLaw> operator()(const NoTension&) { return std::make_unique<NoTensionLaw>(cable); }
-        std::unique_ptr<CableForceLaw> operator()(const LigamentTension& tension) {
-            return std::make_unique<LigamentLaw>(cable, tension);
-        }
-        std::unique_ptr<CableForceLaw> operator()(const BlankevoortTension& tension) {
-            return std::make_unique<BlankevoortLaw>(cable, tension);
-        }
-        std::unique_ptr<CableForceLaw> operator()(const ControlledTension& tension) {
-            return std::make_unique<ControlledLaw>(cable, tension, control);
-        }
-    };
-    return {forces, std::visit(Maker{cable, control}, force.tension)};
+    return std::visit(ForceMaker{forces, cable, control}, force.tension);
 }
 
 }  // namespace tautline::models

@@ -87,6 +87,16 @@ void readOldJoint(Element& body, const std::string& name, BodyParts& parts) {
     if (!joints.empty()) parts.joints.push_back({joints[0], name});
 }
 
+/** Of a body that is there already: its mass and joint are not for a file to say. */
+void readPartsOfBody(Element element, const std::vector<std::string>& names, std::set<std::string>& seen,
+                     BodyParts& parts) {
+    if (element.getTag() != "Body") element.fail("unknown body " + element.describe());
+    const std::string name = element.getRequiredName();
+    if (!seen.insert(name).second) element.fail("a second body '" + name + "'");
+    if (std::find(names.begin(), names.end(), name) == names.end()) element.fail("the host has no body '" + name + "'");
+    readFrameParts(element, "/bodyset/" + name, parts);
+}
+
 void readGround(Element ground, const std::string& path, BodyParts& parts) {
     for (const char* tag : {"mass", "mass_center", "inertia", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xy",
                             "inertia_xz", "inertia_yz", "Joint"})
@@ -156,6 +166,16 @@ void readBodies(Element& model, BodyParts& parts) {
     Element bodySet = model.find("BodySet");
     if (!bodySet) return;
     for (const Element& body : bodySet.getSetMembers()) readBody(body, parts);
+}
+
+void readPartsOfBodies(Element& document, const std::vector<std::string>& names, BodyParts& parts) {
+    parts.frames.addBody(kGroundName);
+    for (const std::string& name : names) parts.frames.addBody(name);
+    if (const Element ground = document.find("Ground")) readGround(ground, "/ground", parts);
+    Element bodySet = document.find("BodySet");
+    if (!bodySet) return;
+    std::set<std::string> seen;
+    for (const Element& body : bodySet.getSetMembers()) readPartsOfBody(body, names, seen, parts);
 }
 
 }  // namespace tautline::models

@@ -26,6 +26,10 @@ struct BodyParts {
 /** Reads Ground and BodySet of a Model element. */
 void readBodies(Element& model, BodyParts& parts);
 
+/** Reads what Ground and BodySet add to bodies that are there already: wrap objects and frames.
+@param names   of the bodies but the ground */
+void readPartsOfBodies(Element& document, const std::vector<std::string>& names, BodyParts& parts);
+
 /** Enters a component of a body, a joint or the model: a frame, which may own wrap objects, or a station. */
 void addComponent(const Element& component, const std::string& ownerPath, BodyParts& parts);
 

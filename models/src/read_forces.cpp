@@ -8,6 +8,7 @@
 #include "read_muscle_models.h"
 #include "read_muscles.h"
 #include "read_path_forces.h"
+#include "tautline/models/extensions.h"
 
 namespace tautline::models {
 namespace {
@@ -26,6 +27,7 @@ const std::map<std::string, ForceReader>& getForceReaders() {
                                                              {"Ligament", readLigament},
                                                              {"Blankevoort1991Ligament", readBlankevoortLigament},
                                                              {"PathActuator", readPathActuator},
+                                                             {"TautlinePrescribedTension", readPrescribedTension},
                                                              {"CoordinateLimitForce", readCoordinateLimitForce},
                                                              {"SpringGeneralizedForce", readCoordinateSpring},
                                                              {"BushingForce", readBushing},
@@ -43,7 +45,8 @@ const std::map<std::string, ForceReader>& getForceReaders() {
 ForceReader findForceReader(const std::string& tag) {
     if (isMuscleType(tag)) return readMuscle;
     const auto found = getForceReaders().find(tag);
-    return found == getForceReaders().end() ? nullptr : found->second;
+    if (found != getForceReaders().end()) return found->second;
+    return updExtensions().findForceLaw(tag) ? readExtensionForce : nullptr;
 }
 
 /** Whether an element has what only an owner of a path has. */
@@ -52,6 +55,10 @@ bool hasPath(Element& element) {
 }
 
 }  // namespace
+
+bool isForceType(const std::string& tag) {
+    return isMuscleType(tag) || getForceReaders().count(tag) > 0;
+}
 
 bool readAppliesForce(Element& element) {
     const bool disabled = element.getBoolOr("isDisabled", false);

@@ -7,6 +7,9 @@ namespace tautline::models {
 /** Reads the members of ForceSet, each by the reader of its tag. */
 void readForces(Element& model, const FrameTable& frames);
 
+/** Whether a tag is that of a force which needs no extension. */
+bool isForceType(const std::string& tag);
+
 /** Whether a force acts, in the spelling of either layout. */
 bool readAppliesForce(Element& element);
 

@@ -4,6 +4,8 @@
 #include "read_forces.h"
 #include "read_functions.h"
 #include "read_paths.h"
+#include "tautline/error.h"
+#include "tautline/models/extensions.h"
 
 namespace tautline::models {
 namespace {
@@ -67,6 +69,25 @@ void readPathActuator(Element& element, const FrameTable& frames) {
     tension.optimalForce = element.getNumberOr("optimal_force", 1.0);
     tension.controlRange = readControlRange(element);
     force.tension = tension;
+    keep(element, std::move(force));
+}
+
+void readPrescribedTension(Element& element, const FrameTable& frames) {
+    PathForce force = readCommon(element, frames);
+    force.tension = PrescribedTension{requireNotNegative(element, "tension", 0.0)};
+    keep(element, std::move(force));
+}
+
+void readExtensionForce(Element& element, const FrameTable& frames) {
+    PathForce force = readCommon(element, frames);
+    ElementProperties properties(element);
+    try {
+        const ForceLawMaker make = (*updExtensions().findForceLaw(element.getTag()))(properties);
+        require(make != nullptr, "its extension has made no force law");
+        force.tension = ExtensionTension{make};
+    } catch (const InvalidInput& refused) {
+        properties.fail(refused.what());
+    }
     keep(element, std::move(force));
 }
 

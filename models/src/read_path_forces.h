@@ -10,6 +10,9 @@ void readPathSpring(Element& element, const FrameTable& frames);
 void readLigament(Element& element, const FrameTable& frames);
 void readBlankevoortLigament(Element& element, const FrameTable& frames);
 void readPathActuator(Element& element, const FrameTable& frames);
+void readPrescribedTension(Element& element, const FrameTable& frames);
+/** Of a force that an extension knows: extensions.h. */
+void readExtensionForce(Element& element, const FrameTable& frames);
 /** Of a force that is not modeled: its path is read and nothing else. */
 void readPathOnly(Element& element, const FrameTable& frames);
 ///@}

@@ -5,6 +5,9 @@
 #include <cctype>
 #include <map>
 
+#include "tautline/error.h"
+#include "tautline/models/extensions.h"
+
 namespace tautline::models {
 namespace {
 
@@ -88,6 +91,30 @@ const std::map<std::string, ShapeReader>& getShapeReaders() {
     return kReaders;
 }
 
+ExtensionShape readExtension(Element& element, const SurfaceReader& read) {
+    ElementProperties properties(element);
+    try {
+        const std::shared_ptr<const Surface> surface = read(properties);
+        require(surface != nullptr, "its extension has made no surface");
+        return {surface};
+    } catch (const InvalidInput& refused) {
+        properties.fail(refused.what());
+    }
+}
+
+/** False for a shape that nobody knows. */
+bool readShape(Element& element, WrapObject& wrap) {
+    const auto reader = getShapeReaders().find(element.getTag());
+    if (reader != getShapeReaders().end()) {
+        wrap.shape = reader->second(element);
+        wrap.form = readForm(element);
+        return true;
+    }
+    const SurfaceReader* extension = updExtensions().findSurface(element.getTag());
+    if (extension) wrap.shape = readExtension(element, *extension);
+    return extension != nullptr;
+}
+
 void checkUnique(const Element& element, const WrapObject& wrap, const ModelDescription& model) {
     for (const WrapObject& other : model.wrapObjects)
         if (other.name == wrap.name && other.body == wrap.body)
@@ -95,14 +122,11 @@ void checkUnique(const Element& element, const WrapObject& wrap, const ModelDesc
 }
 
 void readWrapObject(Element element, const BodyFrame& owner) {
-    const auto reader = getShapeReaders().find(element.getTag());
-    if (reader == getShapeReaders().end()) return element.refuse("wrap object", Effect::Motion);
     WrapObject wrap;
+    if (!readShape(element, wrap)) return element.refuse("wrap object", Effect::Motion);
     wrap.name = element.getRequiredName();
     wrap.line = element.findLine();
     wrap.body = owner.body;
-    wrap.shape = reader->second(element);
-    wrap.form = readForm(element);
     const Vec3 translation = element.getVec3Or("translation", Vec3::Zero());
     const Vec3 rotation = element.getVec3Or("xyz_body_rotation", Vec3::Zero());
     wrap.X_BW = owner.X_BF * makePose(translation, rotation);
@@ -117,6 +141,10 @@ void readWrapObject(Element element, const BodyFrame& owner) {
 }
 
 }  // namespace
+
+bool isWrapObjectType(const std::string& tag) {
+    return getShapeReaders().count(tag) > 0;
+}
 
 void readWrapObjects(const BodyParts& parts) {
     for (const FrameElement& owner : parts.wrapOwners) {

@@ -7,4 +7,7 @@ namespace tautline::models {
 /** Reads the wrap objects of all bodies and frames. */
 void readWrapObjects(const BodyParts& parts);
 
+/** Whether a tag is that of a wrap object which needs no extension. */
+bool isWrapObjectType(const std::string& tag);
+
 }  // namespace tautline::models

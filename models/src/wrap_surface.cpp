@@ -13,7 +13,13 @@ namespace {
 
 using SurfacePointer = std::shared_ptr<const Surface>;
 
-struct ImplicitMaker {
+/** What an extension has made is as it is. */
+struct ExtensionMaker {
+    SurfacePointer operator()(const ExtensionShape& s) { return s.surface; }
+};
+
+struct ImplicitMaker : ExtensionMaker {
+    using ExtensionMaker::operator();
     SurfacePointer operator()(const CylinderShape& s) { return std::make_shared<Cylinder>(s.radius); }
     SurfacePointer operator()(const SphereShape& s) { return std::make_shared<Sphere>(s.radius); }
     SurfacePointer operator()(const EllipsoidShape& s) { return std::make_shared<Ellipsoid>(s.semiAxes); }
@@ -24,7 +30,8 @@ struct ImplicitMaker {
     }
 };
 
-struct ParametricMaker {
+struct ParametricMaker : ExtensionMaker {
+    using ExtensionMaker::operator();
     SurfacePointer operator()(const CylinderShape& s) { return std::make_shared<ParametricCylinder>(s.radius); }
     SurfacePointer operator()(const SphereShape& s) { return std::make_shared<ParametricSphere>(s.radius); }
     SurfacePointer operator()(const EllipsoidShape& s) { return std::make_shared<ParametricEllipsoid>(s.semiAxes); }

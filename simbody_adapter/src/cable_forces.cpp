@@ -82,9 +82,14 @@ public:
     PrescribedTensionLaw(const Cable& cable, Real tension) : CableForceLaw(cable), m_defaultTension(tension) {
         check(tension);
     }
-    PrescribedTensionLaw(const Cable& cable, std::function<Real(const State&)> calcTension)
-        : CableForceLaw(cable), m_calcTension(std::move(calcTension)) {
-        require(m_calcTension != nullptr, "prescribed tension on cable '", cable.getName(), "': the function is null");
+    PrescribedTensionLaw(const Cable& cable, std::function<Real(const State&)> calcTension) : CableForceLaw(cable) {
+        setTensionFunction(std::move(calcTension));
+    }
+
+    void setTensionFunction(std::function<Real(const State&)> calcTension) {
+        require(calcTension != nullptr, "prescribed tension on cable '", getCable().getName(),
+                "': the function is null");
+        m_calcTension = std::move(calcTension);
     }
 
     Real calcTension(const State& state) const override {
@@ -182,6 +187,10 @@ PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& for
 PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable,
                                                SimTK::Function* tensionOfTime)
     : PrescribedTensionForce(forces, cable, makeTimeFunction(tensionOfTime)) {}
+
+void PrescribedTensionForce::setTensionFunction(std::function<Real(const State&)> calcTension) {
+    dynamic_cast<PrescribedTensionLaw&>(updLaw()).setTensionFunction(std::move(calcTension));
+}
 
 void PrescribedTensionForce::setTension(State& state, Real tension) const {
     dynamic_cast<const PrescribedTensionLaw&>(getLaw()).setTension(state, tension);

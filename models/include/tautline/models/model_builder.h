@@ -63,6 +63,11 @@ public:
     SimTK::Vec3 calcStationLocation(const SimTK::State& state, const std::string& body,
                                     const SimTK::Vec3& station_B) const;
 
+    /** Of bodies that somebody else has built, by name, and the ground; it has no coordinates.
+    @throws ModelError for an index that no body has */
+    static BuiltModel ofBodies(SimTK::SimbodyMatterSubsystem& matter,
+                               const std::map<std::string, SimTK::MobilizedBodyIndex>& bodies);
+
 private:
     friend class MultibodyAssembly;
 

@@ -6,6 +6,7 @@ Units are SI and radians. Bodies are named; "ground" is the fixed body and is no
 are already resolved: whatever stood in one is given in its base body. `line` is the line of the element in the source
 file. */
 #include <array>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -17,6 +18,12 @@ file. */
 #include "tautline/models/scalar_function.h"
 #include "tautline/muscles/muscle_model.h"
 #include "tautline/types.h"
+
+namespace tautline {
+class Cable;
+class CableForceLaw;
+class Surface;
+}  // namespace tautline
 
 namespace tautline::models {
 
@@ -154,8 +161,12 @@ struct EllipticTorusShape {
     double radialSemiAxis = 0.0;
     double axialSemiAxis = 0.0;
 };
-using WrapShape =
-    std::variant<CylinderShape, SphereShape, EllipsoidShape, TorusShape, ParaboloidShape, EllipticTorusShape>;
+/** Of an extension: extensions.h. */
+struct ExtensionShape {
+    std::shared_ptr<const Surface> surface;
+};
+using WrapShape = std::variant<CylinderShape, SphereShape, EllipsoidShape, TorusShape, ParaboloidShape,
+                               EllipticTorusShape, ExtensionShape>;
 
 /** As which kind of surface geodesics are computed: f(p) = 0 or x(u, v). The paths are the same. */
 enum class SurfaceForm { Implicit, Parametric };
@@ -291,6 +302,16 @@ struct ControlledTension {
                                        std::numeric_limits<double>::infinity()};
 };
 
+/** A tension that the file, a host or a State gives. */
+struct PrescribedTension {
+    double tension = 0.0;  ///< [N], at first
+};
+
+/** Of an extension: extensions.h. */
+struct ExtensionTension {
+    std::function<std::unique_ptr<CableForceLaw>(const Cable&)> makeLaw;
+};
+
 /** A force along a path that is neither a muscle nor a path spring. */
 struct PathForce {
     std::string name;
@@ -298,7 +319,8 @@ struct PathForce {
     std::string type;
     bool appliesForce = true;
     MusclePath path;
-    std::variant<NoTension, LigamentTension, BlankevoortTension, ControlledTension> tension;
+    std::variant<NoTension, LigamentTension, BlankevoortTension, ControlledTension, PrescribedTension, ExtensionTension>
+        tension;
     int line = 0;
 };
 

@@ -56,4 +56,20 @@ ModelDescription readOsimFile(const std::filesystem::path& file, const ReadingOp
 /** The same from a text; `fileName` only names it in messages. */
 ModelDescription readOsimText(std::string_view text, const std::string& fileName, const ReadingOptions& options = {});
 
+/** Reads forces along paths for bodies that are there already, from a document of the elements that a Model has:
+@code{.xml}
+    <TautlineForces>
+        <Ground>, <BodySet>      only what a Body of the name adds: WrapObjectSet, components
+        <components>, <ContactGeometrySet>, <ForceSet>, <ControllerSet>
+    </TautlineForces>
+@endcode
+A host has no coordinates by name, so conditional and moving points and functions of coordinates are refused, as are
+forces without a path.
+
+@param bodies   their names, besides "ground"
+@return a description without joints, whose bodies have no mass: for HostedForces
+@throws as readOsimFile() */
+ModelDescription readForcesText(std::string_view text, const std::string& fileName,
+                                const std::vector<std::string>& bodies, const ReadingOptions& options = {});
+
 }  // namespace tautline::models

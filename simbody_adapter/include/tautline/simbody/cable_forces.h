@@ -63,8 +63,11 @@ public:
     /** @param tensionOfTime   of one argument, the time [s]; the force takes it over */
     PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, SimTK::Function* tensionOfTime);
 
-    /** For a force made with a constant tension only; invalidates Dynamics. Stage: Topology. @throws InvalidInput for a
-    tension below zero or a force made with a function */
+    /** Gives the tension [N] as a function of a State realized to Velocity, in place of the State's own.
+    Before realizeTopology(). @throws InvalidInput for a null function */
+    void setTensionFunction(std::function<SimTK::Real(const SimTK::State&)> calcTension);
+    /** For a force without a function only; invalidates Dynamics. Stage: Topology. @throws InvalidInput for a
+    tension below zero or a force with a function */
     void setTension(SimTK::State& state, SimTK::Real tension) const;
 };
 

@@ -7,7 +7,7 @@ namespace tautline {
 
 /** Exact rate of length change of a path (thesis Eqn. 5.13), from the segments' e throughout, so that it is
 the power of the forces below at any path error.
-@param X_GE   poses of the elements for which the path was solved
+@param pose   of the elements, for which the path was solved
 @param V_GE   their spatial velocities in ground, one per element
 @return dL/dt [m/s]
 @throws InvalidInput unless there is one velocity per pose */

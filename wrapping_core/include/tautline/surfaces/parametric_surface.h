@@ -157,8 +157,8 @@ public:
     the geodesic equations, and cheaper where charts differ only by the order of the axes. */
     ParametricValue calcTurned(const Vec2& uv, int chart) const { return derived().calcParametric(uv, chart); }
 
-    /** Chart to use at p_S when going along t_S (zero: no direction known). @param current   the chart in use,
-    worth keeping while it is sound; -1: none */
+    /** Chart to use at p_S when going along t_S (zero: no direction known). `current`, the chart in use,
+    is worth keeping while it is sound; -1: none. */
     int chooseChart(const Vec3& /*p_S*/, const Vec3& /*t_S*/, int /*current*/) const { return 0; }
 
     /** Signed distance from the nearest point, of the domain or beside it. There it is no less than the way of the foot

@@ -26,16 +26,16 @@ struct SurfaceLawOptions {
 
 /** Checks the numbered laws at each sample:
 
- 1. calcFrame is orthonormal, right-handed, at the point, its t along the direction given.
- 2. findSurfacePoint is idempotent, and leaves no height; beside the domain none that is negative.
- 3. calcHeightAndNormal in the domain: N_S of unit length, on the surface that of the frame; positive outside, negative
+1.  calcFrame is orthonormal, right-handed, at the point, its t along the direction given.
+2.  findSurfacePoint is idempotent, and leaves no height; beside the domain none that is negative.
+3.  calcHeightAndNormal in the domain: N_S of unit length, on the surface that of the frame; positive outside, negative
     inside; its slope along N is 1 on the surface.
- 4. calcDisplacedPoint stays on the surface and is first-order correct: what it misses is a square.
- 5. Curvatures are the derivatives of the normal: along t, dN = -kappaN t + tauG B; along B, dN = tauG t - kappaB B.
- 6. shootGeodesic: converged; begins in the start's frame; its end is on the surface, with the frame there.
- 7. Reversed: shot back from the end, or over the negative length, it returns to its start.
- 8. Additive: two halves make the whole, Jacobi fields included.
- 9. Jacobi fields have the Wronskian a r' - a' r = 1.
+4.  calcDisplacedPoint stays on the surface and is first-order correct: what it misses is a square.
+5.  Curvatures are the derivatives of the normal: along t, dN = -kappaN t + tauG B; along B, dN = tauG t - kappaB B.
+6.  shootGeodesic: converged; begins in the start's frame; its end is on the surface, with the frame there.
+7.  Reversed: shot back from the end, or over the negative length, it returns to its start.
+8.  Additive: two halves make the whole, Jacobi fields included.
+9.  Jacobi fields have the Wronskian a r' - a' r = 1.
 10. Jacobi fields are the differences of neighboring geodesics.
 11. Zero length: end = start, a = 1, r = 0.
 12. Any point in space has a finite height and a finite surface point.
