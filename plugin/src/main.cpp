@@ -6,11 +6,17 @@
 
 #include "run_command.h"
 #include "solve_command.h"
+#include "tautline/models/extensions.h"
+#include "tautline/version.h"
 
 int main(int argc, char** argv) {
     CLI::App app{"Tautline: shortest paths of muscles and cables over smooth surfaces, in Simbody"};
     app.set_version_flag("--version", "tautline " TAUTLINE_VERSION);
     app.require_subcommand(1);
+    app.fallthrough();  // what all commands have in common may stand behind any of them
+    std::vector<std::filesystem::path> extensions;
+    app.add_option("--load", extensions, "shared library with surfaces and force laws for model files; repeatable")
+        ->allow_extra_args(false);
     tautline::RunCommand run;
     CLI::App* runApp = app.add_subcommand("run", "simulate a model file forward under gravity");
     run.declare(*runApp);
@@ -20,6 +26,7 @@ int main(int argc, char** argv) {
     solve.declare(*solveApp);
     CLI11_PARSE(app, argc, argv);
     try {
+        for (const std::filesystem::path& extension : extensions) tautline::models::loadExtension(extension);
         const bool isTerminal = isatty(STDOUT_FILENO) == 1;
         return solveApp->parsed() ? solve.run(std::cout, isTerminal) : run.run(std::cout, isTerminal);
     } catch (const std::exception& error) {

@@ -8,6 +8,9 @@
 #ifdef WITH_SIMBODY
 #include <tautline/simbody/cable.h>
 #endif
+#ifdef WITH_MODELS
+#include <tautline/models/osim_reader.h>
+#endif
 
 namespace {
 
@@ -42,10 +45,19 @@ double calcLengthInSimbody() {
 }
 #endif
 
+bool readsModels() {
+#ifdef WITH_MODELS
+    const char* text = "<OpenSimDocument Version='40000'><Model name='empty'/></OpenSimDocument>";
+    return models::readOsimText(text, "text").name == "empty";
+#else
+    return true;
+#endif
+}
+
 }  // namespace
 
 int main() {
     const double expected = 2 + 0.5 * kPi, core = calcLength(), adapter = calcLengthInSimbody();
     std::printf("%.15g %.15g\n", core, adapter);
-    return std::abs(core - expected) < 1e-12 && std::abs(adapter - expected) < 1e-12 ? 0 : 1;
+    return std::abs(core - expected) < 1e-12 && std::abs(adapter - expected) < 1e-12 && readsModels() ? 0 : 1;
 }
