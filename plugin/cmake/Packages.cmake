@@ -10,6 +10,9 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/wrapping_core"
+    "${PROJECT_BINARY_DIR}/simbody_adapter" "${PROJECT_BINARY_DIR}/models")
 set(CPACK_COMPONENTS_ALL libtautline0 libtautline-dev tautline tautline-plugin python3-tautline)
 
 # debian_package(<component> SECTION <section> SUMMARY <line> DESCRIPTION <text> [DEPENDS <packages>]): the copyright and
@@ -33,7 +36,7 @@ file(CONFIGURE OUTPUT packages/copyright @ONLY CONTENT
 Upstream-Name: Tautline
 
 Files: *
-Copyright: the Tautline developers
+Copyright: 2025-2026 the Tautline developers
 License: Apache-2.0
  On Debian systems the text of the Apache License, version 2.0, is in
  /usr/share/common-licenses/Apache-2.0.
@@ -75,4 +78,16 @@ debian_package(python3-tautline SECTION python SUMMARY "shortest paths over smoo
     DESCRIPTION "${about}
 .
 This package has the module for Python.")
+# The manual page is the program's own help.
+find_program(help2man help2man)
+if(help2man)
+    set(page "${PROJECT_BINARY_DIR}/packages/tautline.1.gz")
+    add_custom_command(OUTPUT "${page}" DEPENDS tautline VERBATIM
+        COMMAND ${help2man} --no-info --no-discard-stderr --name "shortest paths of muscles over smooth surfaces"
+            --output "${PROJECT_BINARY_DIR}/packages/tautline.1" $<TARGET_FILE:tautline>
+        COMMAND gzip -9nf "${PROJECT_BINARY_DIR}/packages/tautline.1")
+    add_custom_target(manual_page ALL DEPENDS "${page}")
+    install(FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
+        COMPONENT tautline)
+endif()
 include(CPack)
