@@ -2,7 +2,9 @@
 #include "run_command.h"
 
 #include <algorithm>
+#include <sstream>
 
+#include "html_report.h"
 #include "model_report.h"
 #include "plots.h"
 #include "progress_bar.h"
@@ -41,6 +43,8 @@ void RunCommand::declare(CLI::App& app) {
     app.add_option("--accuracy", simulation.accuracy, "accuracy of the integrator, in [1e-14, 0.1]")
         ->capture_default_str();
     app.add_flag("--allow-degraded", allowsDegraded, "exit with 0 even if some steps had no verified shortest path");
+    app.add_option("--report", report,
+                   "write a page (.html) to look at the run: model, paths, curves, events, statuses");
     app.add_flag("--plot", drawsCurves, "draw the results with gnuplot: a picture (.svg) of each path's curves");
 }
 
@@ -62,11 +66,16 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
         out << "excitation: " << kDefaultExcitation << " for "
             << (numDefault == static_cast<int>(names.size()) ? "all " : "") << numDefault << " muscles\n";
     if (drawsCurves) requireGnuplot();
+    std::optional<ReportRecorder> page;
+    if (!report.empty()) page.emplace(model, description.gravity);
     std::filesystem::create_directories(outFolder);
 
     ProgressBar bar(out, isTerminal);
-    const SimulationResult result =
-        simulate(model, muscleExcitations, simulation, [&bar](double share) { bar.show(share); });
+    const SimulationResult result = simulate(
+        model, muscleExcitations, simulation, [&bar](double share) { bar.show(share); },
+        [&page](const SimTK::State& state) {
+            if (page) page->recordFrame(state);
+        });
     bar.clear();
     writeStorage(result.states, outFolder / "states.sto");
     writeStorage(result.paths, outFolder / "paths.sto");
@@ -81,6 +90,13 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
         << ", " << (outFolder / "events.csv").string();
     if (!result.starts.empty()) out << ", " << (outFolder / "start.csv").string();
     out << "\n";
+    if (page) {
+        std::ostringstream summary;
+        printModelSummary(description, summary);
+        if (report.has_parent_path()) std::filesystem::create_directories(report.parent_path());
+        writeWhole(page->makePage(description.name, summary.str(), result), report);
+        out << "page: " << report.string() << "\n";
+    }
     if (drawsCurves)
         for (const std::filesystem::path& picture : drawCurves(model, result, outFolder))
             out << "curves: " << picture.string() << "\n";

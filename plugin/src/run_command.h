@@ -19,6 +19,8 @@ struct RunCommand {
     SimulationOptions simulation;
     bool allowsDegraded = false;
     bool drawsCurves = false;
+    /** The page to look at; empty: none. */
+    std::filesystem::path report;
 
     /** Declares the options in a subcommand. */
     void declare(CLI::App& app);

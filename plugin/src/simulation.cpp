@@ -41,8 +41,8 @@ constexpr MuscleColumn kMuscleColumns[] = {
 /** Turns states of a simulation into rows and counts. */
 class Recorder {
 public:
-    Recorder(const ModelSystem& model, SimulationResult& result)
-        : m_model(model), m_paths(model.getPaths()), m_result(result) {
+    Recorder(const ModelSystem& model, SimulationResult& result, std::function<void(const State&)> watchRow)
+        : m_model(model), m_paths(model.getPaths()), m_result(result), m_watchRow(std::move(watchRow)) {
         m_result.summaries.resize(m_paths.size());
         m_result.muscleSummaries.resize(model.getMuscles().size());
         m_result.events = "time,path,obstacle,kind\n";
@@ -61,6 +61,7 @@ public:
         recordMuscles(state);
         recordClearances(state);
         watchFibers(state);
+        if (m_watchRow) m_watchRow(state);
     }
 
     /** Has the cables count an accepted step, and says why the first is degraded that is. */
@@ -230,6 +231,7 @@ private:
     const ModelSystem& m_model;
     std::vector<ModelSystem::PathView> m_paths;
     SimulationResult& m_result;
+    std::function<void(const State&)> m_watchRow;
     std::vector<ClearanceProbe> m_probes;  ///< one per obstacle, path by path
 };
 
@@ -320,7 +322,8 @@ void integrate(ModelSystem& model, const State& initialState, const SimulationOp
 }  // namespace
 
 SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excitation>& excitations,
-                          const SimulationOptions& options, const std::function<void(double)>& reportProgress) {
+                          const SimulationOptions& options, const std::function<void(double)>& reportProgress,
+                          const std::function<void(const State&)>& watchRow) {
     options.validate();
     SimulationResult result;
     const std::vector<ModelSystem::PathView> paths = model.getPaths();
@@ -331,7 +334,7 @@ SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excita
     model.requireRegularPose(state);
     startPaths(model, state, result);
     const std::vector<MuscleEquilibrium> starts = model.equilibrateMuscles(state);
-    Recorder recorder(model, result);
+    Recorder recorder(model, result, watchRow);
     for (std::size_t i = 0; i < starts.size(); ++i) result.muscleSummaries[i].start = starts[i];
     const ListenerScope listening(paths, recorder);
     const auto start = std::chrono::steady_clock::now();

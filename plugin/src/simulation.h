@@ -45,10 +45,12 @@ struct SimulationResult {
 in equilibrium at the muscles' default activations. Paths for which the model gives geodesics to start from begin with
 what these lead to, others with what the solver finds.
 @param reportProgress   called with the share done, 0 to 1
+@param watchRow   if there is one: called with the State of each row, realized to Velocity
 @throws InvalidInput as SimulationOptions::validate(), std::runtime_error if a start that the model gives leads to no
 path
 @return the recorded results; the same for the same input, bit for bit, but for the times */
 SimulationResult simulate(models::ModelSystem& model, const std::map<std::string, Excitation>& excitations,
-                          const SimulationOptions& options, const std::function<void(double)>& reportProgress);
+                          const SimulationOptions& options, const std::function<void(double)>& reportProgress,
+                          const std::function<void(const SimTK::State&)>& watchRow = nullptr);
 
 }  // namespace tautline
