@@ -2,7 +2,15 @@
 // Shows `report`: bodies, surfaces and paths in 3D, frame by frame, with curves, events and the table of the run.
 "use strict";
 (function () {
-  const kUnit = 1e-4;  // of the report's lengths [m]
+  const decode = (text, Numbers) => new Numbers(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+  report.frames.forEach((frame) => {
+    frame.bodies = decode(frame.bodies, Float32Array);
+    frame.paths = frame.paths.map((points) => Float32Array.from(decode(points, Int16Array), (x) => x * report.unit));
+  });
+  report.curves.forEach((curve) => {
+    curve.values = Array.from(decode(curve.values, Uint16Array),
+                              (x) => x === 65535 ? null : curve.least + x * curve.step);
+  });
   const find = (id) => document.getElementById(id);
   const frames = report.frames;
   const times = frames.map((frame) => frame.t);
@@ -24,7 +32,7 @@
   const bounds = new THREE.Box3();
   frames.forEach((frame) => frame.paths.forEach((path) => {
     for (let i = 0; i < path.length; i += 3)
-      bounds.expandByPoint(new THREE.Vector3(path[i], path[i + 1], path[i + 2]).multiplyScalar(kUnit));
+      bounds.expandByPoint(new THREE.Vector3(path[i], path[i + 1], path[i + 2]));
   }));
   if (bounds.isEmpty()) bounds.expandByPoint(new THREE.Vector3()).expandByScalar(0.5);
   const size = Math.max(bounds.getSize(new THREE.Vector3()).length(), 1e-3);
@@ -39,11 +47,15 @@
   const kLifted = 0xc8c4b8, kTouched = 0xe9a86b;
   const surfaces = report.surfaces.map((surface) => {
     const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.Float32BufferAttribute(surface.points.map((x) => x * kUnit), 3));
-    geometry.setIndex(surface.faces);
+    const points = Float32Array.from(decode(surface.points, Int16Array), (x) => x * surface.unit);
+    const corners = decode(surface.faces, surface.short ? Uint16Array : Uint32Array), triangles = [];
+    for (let i = 0; i < corners.length; i += 4)  // each of four corners
+      [0, 1, 2, 0, 2, 3].forEach((corner) => triangles.push(corners[i + corner]));
+    geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
+    geometry.setIndex(triangles);
     geometry.computeVertexNormals();
     const material = new THREE.MeshLambertMaterial(
-        {color: kLifted, side: THREE.DoubleSide, transparent: true, opacity: 0.75});
+        {color: kLifted, side: THREE.DoubleSide, transparent: true, opacity: 0.55});
     const mesh = new THREE.Mesh(geometry, material);
     mesh.matrixAutoUpdate = false;
     mesh.matrix.fromArray(surface.pose);
@@ -61,9 +73,14 @@
     scene.add(line);
     return line;
   });
-  const arcs = lines.map((line) => {  // arcs on surfaces, drawn over the path
-    const arc = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({color: 0xd1495b, depthTest: false}));
+  const arcs = lines.map((line, i) => {  // arcs on surfaces, drawn over all else
+    const most = Math.max(1, ...frames.map((frame) => frame.arcs[i].reduce((sum, arc) => sum + arc[1] - arc[0], 0)));
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(new Float32Array(6 * most), 3));
+    const material = new THREE.LineBasicMaterial({color: 0xd1495b, depthTest: false, transparent: true});
+    const arc = new THREE.LineSegments(geometry, material);
     arc.frustumCulled = false;
+    arc.renderOrder = 1;  // after the surfaces, which are transparent, too
     scene.add(arc);
     return arc;
   });
@@ -78,16 +95,17 @@
 
   function showPath(i, points, touched) {
     const position = lines[i].geometry.attributes.position;
-    for (let k = 0; k < points.length; ++k) position.array[k] = points[k] * kUnit;
+    for (let k = 0; k < points.length; ++k) position.array[k] = points[k];
     position.needsUpdate = true;
     lines[i].geometry.setDrawRange(0, points.length / 3);
-    const segments = [];
+    const segments = arcs[i].geometry.attributes.position;
+    let next = 0;
     touched.forEach(([first, last]) => {
       for (let k = first; k < last; ++k)
-        for (let c = 0; c < 6; ++c) segments.push(points[3 * k + c] * kUnit);
+        for (let c = 0; c < 6; ++c) segments.array[next++] = points[3 * k + c];
     });
-    arcs[i].geometry.setAttribute("position", new THREE.Float32BufferAttribute(segments, 3));
-    arcs[i].geometry.setDrawRange(0, segments.length / 3);
+    segments.needsUpdate = true;
+    arcs[i].geometry.setDrawRange(0, next / 3);
   }
 
   let current = -1;
@@ -95,9 +113,10 @@
     if (index === current) return;
     current = index;
     const frame = frames[index];
-    frame.bodies.forEach((pose, b) => {
-      bodies[b].matrix.fromArray(pose);
-      bodies[b].matrixWorldNeedsUpdate = true;
+    bodies.forEach((body, b) => {
+      const m = frame.bodies.subarray(12 * b, 12 * b + 12);
+      body.matrix.set(m[0], m[3], m[6], m[9], m[1], m[4], m[7], m[10], m[2], m[5], m[8], m[11], 0, 0, 0, 1);
+      body.matrixWorldNeedsUpdate = true;
     });
     surfaces.forEach((mesh, s) => mesh.material.color.setHex(frame.touched.includes(s) ? kTouched : kLifted));
     frame.paths.forEach((points, i) => showPath(i, points, frame.arcs[i]));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -14,8 +15,8 @@
 namespace tautline {
 namespace {
 
-/** The page's unit of length [m]: finer than a pixel. */
-constexpr double kUnit = 1e-4;
+/** The largest whole number of 16 bits. */
+constexpr double kMost = 32767;
 /** Arcs turn by so much between points [rad]. */
 constexpr double kMaxAngle = 0.15;
 /** How far surfaces without end are drawn around where they are touched, in their sizes. */
@@ -55,9 +56,26 @@ private:
     std::string m_items;
 };
 
-template <class Vector>
-void addLength(const Vector& p, JsonList& list) {
-    for (int i = 0; i < 3; ++i) list.add(std::to_string(std::lround(std::isfinite(p[i]) ? p[i] / kUnit : 0.0)));
+/** The bytes of numbers in base 64, in quotes: a third of what digits take. */
+template <class Number>
+std::string encode(const std::vector<Number>& numbers) {
+    static const char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const auto* bytes = reinterpret_cast<const unsigned char*>(numbers.data());
+    const std::size_t size = numbers.size() * sizeof(Number);
+    std::string text = "\"";
+    for (std::size_t i = 0; i < size; i += 3) {
+        const unsigned group =
+            bytes[i] << 16 | (i + 1 < size ? bytes[i + 1] << 8 : 0) | (i + 2 < size ? bytes[i + 2] : 0);
+        text += kDigits[group >> 18];
+        text += kDigits[group >> 12 & 63];
+        text += i + 1 < size ? kDigits[group >> 6 & 63] : '=';
+        text += i + 2 < size ? kDigits[group & 63] : '=';
+    }
+    return text + "\"";
+}
+
+std::int16_t toWhole(double number, double unit) {
+    return std::isfinite(number) ? static_cast<std::int16_t>(std::lround(number / unit)) : std::int16_t(0);
 }
 
 /** Column by column, as the page's library wants it. */
@@ -117,55 +135,82 @@ std::size_t ReportRecorder::findSurface(const Cable& cable, CableElementIndex el
     return m_surfaces.size() - 1;
 }
 
-void ReportRecorder::recordPath(const SimTK::State& state, std::size_t path, std::vector<bool>& isTouched,
-                                std::string& points, std::string& arcs) {
+ReportRecorder::Path ReportRecorder::recordPath(const SimTK::State& state, std::size_t path,
+                                                std::vector<bool>& isTouched) {
     const Cable& cable = m_paths[path].cable;
-    JsonList coordinates, ranges;
-    if (!cable.isDisabled(state)) {
-        const std::vector<SimTK::Vec3> points_G = cable.calcDrawingPoints(state, kMaxAngle);
-        for (const SimTK::Vec3& point : points_G) addLength(point, coordinates);
-        std::size_t next = 0;
-        const auto findNext = [&](const SimTK::Vec3& p) {
-            const auto distance = [&p](const SimTK::Vec3& q) { return (p - q).normSqr(); };
-            const auto nearest =
-                std::min_element(points_G.begin() + static_cast<std::ptrdiff_t>(next), points_G.end(),
-                                 [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-            return static_cast<std::size_t>(nearest - points_G.begin());
-        };
-        for (const Obstacle& obstacle : m_obstacles[path]) {
-            SimTK::Vec3 P_G, Q_G;
-            if (!cable.getContactPoints(state, obstacle.element, P_G, Q_G)) continue;
-            isTouched[obstacle.surface] = true;
-            Surface& surface = m_surfaces[obstacle.surface];
-            const SimTK::Transform X_GS =
-                cable.getMatterSubsystem().getMobilizedBody(surface.body).getBodyTransform(state) * surface.X_BS;
-            if (m_frames.size() % 10 == 0) surface.touched_S.push_back(toEigen(X_GS.shiftBaseStationToFrame(P_G)));
-            const std::size_t first = findNext(P_G);
-            next = first;
-            next = findNext(Q_G);
-            ranges.add("[" + std::to_string(first) + "," + std::to_string(next) + "]");
-        }
+    Path recorded;
+    if (cable.isDisabled(state)) return recorded;
+    recorded.points_G = cable.calcDrawingPoints(state, kMaxAngle);
+    std::size_t next = 0;
+    const auto findNext = [&](const SimTK::Vec3& p) {
+        const auto begin = recorded.points_G.begin();
+        const auto isNearer = [&p](const auto& a, const auto& b) { return (p - a).normSqr() < (p - b).normSqr(); };
+        const auto nearest =
+            std::min_element(begin + static_cast<std::ptrdiff_t>(next), recorded.points_G.end(), isNearer);
+        return static_cast<std::size_t>(nearest - begin);
+    };
+    for (const Obstacle& obstacle : m_obstacles[path]) {
+        SimTK::Vec3 P_G, Q_G;
+        if (!cable.getContactPoints(state, obstacle.element, P_G, Q_G)) continue;
+        isTouched[obstacle.surface] = true;
+        Surface& surface = m_surfaces[obstacle.surface];
+        const SimTK::Transform X_GS =
+            cable.getMatterSubsystem().getMobilizedBody(surface.body).getBodyTransform(state) * surface.X_BS;
+        if (m_frames.size() % 10 == 0) surface.touched_S.push_back(toEigen(X_GS.shiftBaseStationToFrame(P_G)));
+        const std::size_t first = findNext(P_G);
+        next = first;
+        next = findNext(Q_G);
+        recorded.arcs.push_back({first, next});
     }
-    points = coordinates.get();
-    arcs = ranges.get();
+    return recorded;
 }
 
 void ReportRecorder::recordFrame(const SimTK::State& state) {
     const SimTK::SimbodyMatterSubsystem& matter = m_model.getModel().getMatter();
-    JsonList bodies, paths, arcs, touched;
+    Frame frame;
+    frame.time = state.getTime();
     for (SimTK::MobilizedBodyIndex body(0); body < matter.getNumBodies(); ++body)
-        bodies.add(toMatrix(matter.getMobilizedBody(body).getBodyTransform(state)));
+        frame.X_GB.push_back(matter.getMobilizedBody(body).getBodyTransform(state));
     std::vector<bool> isTouched(m_surfaces.size(), false);
-    for (std::size_t i = 0; i < m_paths.size(); ++i) {
-        std::string points, ranges;
-        recordPath(state, i, isTouched, points, ranges);
-        paths.add(points);
-        arcs.add(ranges);
-    }
+    for (std::size_t i = 0; i < m_paths.size(); ++i) frame.paths.push_back(recordPath(state, i, isTouched));
     for (std::size_t s = 0; s < isTouched.size(); ++s)
-        if (isTouched[s]) touched.add(std::to_string(s));
-    m_frames.push_back("{\"t\":" + toNumber(state.getTime(), 9) + ",\"bodies\":" + bodies.get() +
-                       ",\"paths\":" + paths.get() + ",\"arcs\":" + arcs.get() + ",\"touched\":" + touched.get() + "}");
+        if (isTouched[s]) frame.touched.push_back(s);
+    m_frames.push_back(std::move(frame));
+}
+
+double ReportRecorder::calcUnit() const {
+    double most = 1e-3;
+    for (const Frame& frame : m_frames)
+        for (const Path& path : frame.paths)
+            for (const SimTK::Vec3& point : path.points_G)
+                for (int i = 0; i < 3; ++i)
+                    if (std::isfinite(point[i])) most = std::max(most, std::abs(point[i]));
+    return most / kMost;
+}
+
+std::string ReportRecorder::describeFrames(double unit) const {
+    JsonList frames;
+    for (const Frame& frame : m_frames) {
+        std::vector<float> bodies;  // three columns of the rotation, then the origin
+        for (const SimTK::Transform& X_GB : frame.X_GB)
+            for (int column = 0; column < 4; ++column)
+                for (int row = 0; row < 3; ++row) bodies.push_back(static_cast<float>(X_GB.toMat34()(row, column)));
+        JsonList paths, arcs, touched;
+        for (const Path& path : frame.paths) {
+            std::vector<std::int16_t> points;
+            for (const SimTK::Vec3& point : path.points_G)
+                for (int i = 0; i < 3; ++i) points.push_back(toWhole(point[i], unit));
+            paths.add(encode(points));
+            JsonList ranges;
+            for (const Range& arc : path.arcs)
+                ranges.add("[" + std::to_string(arc[0]) + "," + std::to_string(arc[1]) + "]");
+            arcs.add(ranges.get());
+        }
+        for (const std::size_t surface : frame.touched) touched.add(std::to_string(surface));
+        frames.add("{\"t\":" + toNumber(frame.time, 9) + ",\"bodies\":" + encode(bodies) + ",\"paths\":" + paths.get() +
+                   ",\"arcs\":" + arcs.get() + ",\"touched\":" + touched.get() + "}");
+    }
+    return frames.get();
 }
 
 std::string ReportRecorder::describeSurfaces() const {
@@ -173,12 +218,24 @@ std::string ReportRecorder::describeSurfaces() const {
     for (const Surface& surface : m_surfaces) {
         const SurfaceMesh mesh =
             calcSurfaceMesh(*surface.surface, kExtent * surface.surface->getSize(), surface.touched_S);
-        JsonList points, faces;
-        for (const Vec3& point : mesh.points) addLength(point, points);
-        for (const auto& [a, b, c, d] : mesh.faces)
-            for (const int corner : {a, b, c, a, c, d}) faces.add(std::to_string(corner));
+        double most = 1e-3;
+        for (const Vec3& point : mesh.points) most = std::max(most, point.cwiseAbs().maxCoeff());
+        const double unit = most / kMost;
+        std::vector<std::int16_t> points;
+        for (const Vec3& point : mesh.points)
+            for (int i = 0; i < 3; ++i) points.push_back(toWhole(point[i], unit));
+        std::vector<std::uint32_t> corners;
+        std::vector<std::uint16_t> shortCorners;
+        for (const auto& face : mesh.faces)
+            for (const int corner : face) {
+                corners.push_back(static_cast<std::uint32_t>(corner));
+                shortCorners.push_back(static_cast<std::uint16_t>(corner));
+            }
+        const bool isShort = mesh.points.size() < 65536;
         surfaces.add("{\"body\":" + std::to_string(surface.body) + ",\"pose\":" + toMatrix(surface.X_BS) +
-                     ",\"points\":" + points.get() + ",\"faces\":" + faces.get() + "}");
+                     ",\"unit\":" + toNumber(unit) + ",\"points\":" + encode(points) +
+                     ",\"short\":" + (isShort ? "true" : "false") +
+                     ",\"faces\":" + (isShort ? encode(shortCorners) : encode(corners)) + "}");
     }
     return surfaces.get();
 }
@@ -187,15 +244,20 @@ std::string ReportRecorder::describeCurves(const SimulationResult& result) const
     JsonList curves;
     const auto addColumn = [&](const StorageTable& table, std::size_t column, std::size_t path,
                                const std::string& quantity, const std::string& of) {
-        JsonList values;
-        bool isZero = true;
-        for (const auto& row : table.rows) {
-            isZero = isZero && (row[column] == 0 || !std::isfinite(row[column]));
-            values.add(toNumber(row[column]));
-        }
-        if (!isZero)
-            curves.add("{\"path\":" + std::to_string(path) + ",\"quantity\":" + quote(quantity) +
-                       ",\"of\":" + quote(of) + ",\"values\":" + values.get() + "}");
+        // Steps of a 65535th of the curve's range; the largest whole number stands for what is none.
+        double least = kInfinity, most = -kInfinity;
+        for (const auto& row : table.rows)
+            if (std::isfinite(row[column])) least = std::min(least, row[column]), most = std::max(most, row[column]);
+        if (!(least <= most) || (least == 0 && most == 0)) return;
+        const double step = most > least ? (most - least) / 65534 : 1.0;
+        std::vector<std::uint16_t> values;
+        for (const auto& row : table.rows)
+            values.push_back(std::isfinite(row[column])
+                                 ? static_cast<std::uint16_t>(std::lround((row[column] - least) / step))
+                                 : std::uint16_t(65535));
+        curves.add("{\"path\":" + std::to_string(path) + ",\"quantity\":" + quote(quantity) + ",\"of\":" + quote(of) +
+                   ",\"least\":" + toNumber(least, 9) + ",\"step\":" + toNumber(step, 9) +
+                   ",\"values\":" + encode(values) + "}");
     };
     const std::pair<const char*, const char*> quantities[] = {{"length", "length [m]"},
                                                               {"rate", "rate [m/s]"},
@@ -250,16 +312,16 @@ std::string ReportRecorder::describeEvents(const SimulationResult& result) const
 
 std::string ReportRecorder::makePage(const std::string& title, const std::string& summary,
                                      const SimulationResult& result) const {
-    JsonList bodies, paths, frames, up;
+    JsonList bodies, paths, up;
+    const double unit = calcUnit();
     for (int body = 0; body < m_model.getModel().getMatter().getNumBodies(); ++body) bodies.add(std::to_string(body));
     for (const auto& path : m_paths) paths.add("{\"name\":" + quote(path.name) + "}");
-    for (const std::string& frame : m_frames) frames.add(frame);
     for (int i = 0; i < 3; ++i) up.add(toNumber(m_up[i]));
     const std::string data = "{\"title\":" + quote(title) + ",\"summary\":" + quote(summary) + ",\"up\":" + up.get() +
                              ",\"bodies\":" + bodies.get() + ",\"surfaces\":" + describeSurfaces() +
-                             ",\"paths\":" + paths.get() + ",\"frames\":" + frames.get() +
-                             ",\"curves\":" + describeCurves(result) + ",\"table\":" + describeTable(result) +
-                             ",\"events\":" + describeEvents(result) + "}";
+                             ",\"paths\":" + paths.get() + ",\"unit\":" + toNumber(unit) +
+                             ",\"frames\":" + describeFrames(unit) + ",\"curves\":" + describeCurves(result) +
+                             ",\"table\":" + describeTable(result) + ",\"events\":" + describeEvents(result) + "}";
     const std::string licenses =
         std::string("three.js and OrbitControls.js\n") + report::kThreeLicense + "\nChart.js\n" + report::kChartLicense;
     return fill(report::kPage, {{"TITLE", escape(title)},

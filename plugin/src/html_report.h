@@ -36,9 +36,24 @@ private:
         std::vector<Vec3> touched_S;  ///< where paths have touched it
     };
 
+    /** First and last point of an arc. */
+    using Range = std::array<std::size_t, 2>;
+    struct Path {
+        std::vector<SimTK::Vec3> points_G;
+        std::vector<Range> arcs;
+    };
+    struct Frame {
+        double time;
+        std::vector<SimTK::Transform> X_GB;
+        std::vector<Path> paths;
+        std::vector<std::size_t> touched;  ///< surfaces
+    };
+
     std::size_t findSurface(const Cable& cable, CableElementIndex element);
-    void recordPath(const SimTK::State& state, std::size_t path, std::vector<bool>& isTouched, std::string& points,
-                    std::string& arcs);
+    Path recordPath(const SimTK::State& state, std::size_t path, std::vector<bool>& isTouched);
+    /** The page's unit of length [m]: all coordinates are whole numbers of 16 bits. */
+    double calcUnit() const;
+    std::string describeFrames(double unit) const;
     std::string describeSurfaces() const;
     std::string describeCurves(const SimulationResult& result) const;
     std::string describeTable(const SimulationResult& result) const;
@@ -49,7 +64,7 @@ private:
     std::vector<models::ModelSystem::PathView> m_paths;
     std::vector<Surface> m_surfaces;
     std::vector<std::vector<Obstacle>> m_obstacles;  ///< by path
-    std::vector<std::string> m_frames;
+    std::vector<Frame> m_frames;
 };
 
 }  // namespace tautline

@@ -89,7 +89,8 @@ TEST(Readme, CommandsOfTheProgramWork) {
 
 TEST(Readme, NamesFilesThatExist) {
     for (const char* file :
-         {"/models/run", "/tests/run", "/models/figures/path.svg", "/models/elbow.osim", "/models/paraboloid.osim",
+         {"/models/run", "/tests/run", "/models/figures/path.svg", "/plugin/report/four_surfaces.png",
+          "/plugin/guide/README.md", "/models/elbow.osim", "/models/paraboloid.osim",
           "/models/four_surfaces_implicit.osim", "/models/four_surfaces_parametric.osim",
           "/models/figures/paraboloid_curves.svg", "/models/figures/four_surfaces_curves.svg",
           "/models/figures/four_surfaces_start.svg", "/models/README.md", "/bench/README.md",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "html_report.h"
@@ -37,6 +38,27 @@ protected:
         return nlohmann::json::parse(page.substr(first, page.find(end, first) - first));
     }
 
+    /** Numbers from their bytes in base 64. */
+    template <class Number>
+    static std::vector<Number> decode(const std::string& text) {
+        const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        std::string bytes;
+        unsigned bits = 0;
+        int numBits = 0;
+        for (const char digit : text) {
+            if (digit == '=') break;
+            bits = bits << 6 | static_cast<unsigned>(digits.find(digit));
+            numBits += 6;
+            if (numBits < 8) continue;
+            numBits -= 8;
+            bytes += static_cast<char>(bits >> numBits & 255);
+        }
+        EXPECT_EQ(bytes.size() % sizeof(Number), 0u);
+        std::vector<Number> numbers(bytes.size() / sizeof(Number));
+        std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+        return numbers;
+    }
+
     std::filesystem::path m_folder;
 };
 
@@ -51,16 +73,17 @@ TEST_F(Report, HoldsWhatTheFilesOfTheRunSay) {
     const nlohmann::json data = readData(page);
     const StorageTable paths = readStorage(m_folder / "paths.sto");
     ASSERT_EQ(data["frames"].size(), paths.rows.size());
+    const double unit = data["unit"];
     int numArcs = 0;
     for (std::size_t i = 0; i < paths.rows.size(); i += 7) {
         const nlohmann::json& frame = data["frames"][i];
         EXPECT_NEAR(frame["t"].get<double>(), paths.rows[i][0], 1e-9);
         for (std::size_t p = 0; p < data["paths"].size(); ++p) {
             const std::string name = "/forceset/" + data["paths"][p]["name"].get<std::string>();
-            const std::vector<double> points = frame["paths"][p];
+            const auto points = decode<std::int16_t>(frame["paths"][p]);
             double length = 0;  // of the polygon that is drawn: chords of arcs, rounded
             for (std::size_t k = 3; k + 2 < points.size(); k += 3)
-                length += 1e-4 * std::hypot(points[k] - points[k - 3], points[k + 1] - points[k - 2],
+                length += unit * std::hypot(points[k] - points[k - 3], points[k + 1] - points[k - 2],
                                             points[k + 2] - points[k - 1]);
             EXPECT_NEAR(length, paths.rows[i][findColumn(paths, name + "|length")], 1e-3) << name;
             for (const auto& arc : frame["arcs"][p]) {
@@ -71,7 +94,16 @@ TEST_F(Report, HoldsWhatTheFilesOfTheRunSay) {
         }
     }
     EXPECT_GT(numArcs, 0);
-    for (const auto& curve : data["curves"]) EXPECT_EQ(curve["values"].size(), paths.rows.size());
+    for (const auto& curve : data["curves"]) {
+        const auto values = decode<std::uint16_t>(curve["values"]);
+        ASSERT_EQ(values.size(), paths.rows.size());
+        if (curve["quantity"] != "length [m]") continue;
+        const std::string name = data["paths"][curve["path"].get<std::size_t>()]["name"];
+        const std::size_t column = findColumn(paths, "/forceset/" + name + "|length");
+        for (std::size_t i = 0; i < values.size(); ++i)
+            EXPECT_NEAR(curve["least"].get<double>() + values[i] * curve["step"].get<double>(), paths.rows[i][column],
+                        1e-6);
+    }
     EXPECT_EQ(data["table"].size(), data["paths"].size());
     const std::string events = readAll(m_folder / "events.csv");
     EXPECT_EQ(static_cast<long>(data["events"].size()), std::count(events.begin(), events.end(), '\n') - 1);

@@ -77,6 +77,36 @@ def test_equals_the_program_to_the_last_digit(tmp_path):
     assert found == 2 * len(results.paths)
 
 
+def test_arm26_over_its_motion_equals_the_program_to_the_last_digit(tmp_path):
+    shared = os.environ.get("TAUTLINE_SHARED", os.path.join(ROOT, "..", "shared"))
+    file = os.path.join(shared, "data", "opensim", "models", "arm26.osim")
+    motion = os.path.join(shared, "data", "opensim", "motions", "arm26_InverseKinematics.mot")
+    if not os.path.exists(file):
+        pytest.skip("no reference data: neither ../shared nor TAUTLINE_SHARED is a folder")
+    subprocess.run(
+        [PROGRAM, "solve", file, "--motion", motion, "--out", tmp_path, "--allow-degraded"], check=True, capture_output=True
+    )
+    labels, poses = read_storage(tmp_path / "coordinates.sto")
+    names = [label.split("/")[3] for label in labels[1::2]]
+    study = tautline.Study(tautline.read_osim(file))
+    results = study.solve(poses[:, 1::2], coordinates=names, u=poses[:, 2::2], times=poses[:, 0])
+    compared = 0
+    for table, values in [("paths", results.length), ("moment_arms", results.moment_arm)]:
+        labels, rows = read_storage(tmp_path / f"{table}.sto")
+        assert len(rows) == len(poses) == 121
+        for p, path in enumerate(results.paths):
+            for label, column in zip(labels, rows.T):
+                if label == f"/forceset/{path}|length":
+                    np.testing.assert_array_equal(column, values[:, p])
+                elif label.startswith(f"/forceset/{path}|moment_arm."):
+                    coordinate = label.rsplit(".", 1)[1]
+                    np.testing.assert_array_equal(column, values[:, p, results.coordinates.index(coordinate)])
+                else:
+                    continue
+                compared += 1
+    assert compared >= 2 * len(results.paths)
+
+
 def test_simulates_as_the_program_does(tmp_path):
     model = tautline.read_osim(ELBOW)
     muscle = model.muscles[0]
