@@ -216,7 +216,10 @@ public:
     /** The names in the order of the file, not of the tree. */
     BuiltModel finish(const ModelDescription& model) {
         for (const Joint& joint : model.joints)
-            for (const Coordinate& coordinate : joint.coordinates) m_built.m_coordinateNames.push_back(coordinate.name);
+            for (const Coordinate& coordinate : joint.coordinates) {
+                m_built.m_coordinateNames.push_back(coordinate.name);
+                m_built.m_coordinates.at(coordinate.name).path = "/jointset/" + joint.name + "/" + coordinate.name;
+            }
         return m_built;
     }
 

@@ -5,8 +5,10 @@
 
 #include "body_forces.h"
 #include "path_force_laws.h"
+#include "tautline/models/crossed_coordinates.h"
 #include "tautline/models/path_points.h"
 #include "tautline/simbody/conversions.h"
+#include "wrap_conditions.h"
 
 namespace tautline::models {
 namespace {
@@ -88,8 +90,11 @@ Cable addCable(const Site& site, const std::string& kind, const std::string& nam
         if (p > 0) addPoint(cable, points[p], site.bodies);
         for (; next < wraps.size() && wraps[next].segment == p; ++next) {
             const WrapObject& object = site.description.wrapObjects[wraps[next].object];
-            cable.addObstacle(site.bodies.getBody(object.body), toTransform(object.X_BW), wraps[next].surface,
-                              wraps[next].hint_W, makeObstacleName(site.description, wraps, next));
+            const CableElementIndex obstacle =
+                cable.addObstacle(site.bodies.getBody(object.body), toTransform(object.X_BW), wraps[next].surface,
+                                  wraps[next].hint_W, makeObstacleName(site.description, wraps, next));
+            if (auto isActive = makeWrapCondition(site.description, path, wraps[next], site.bodies))
+                cable.setCondition(obstacle, std::move(isActive));
         }
     }
     return cable;
@@ -104,6 +109,7 @@ Slot makeSlot(const Site& site, const std::string& kind, const Owner& owner, con
     slot.wraps = wraps;
     slot.cable = addCable(site, kind, owner.name, owner.path, wraps);
     slot.start = makePathStart(wraps, slot.cable);
+    slot.coordinates = findCrossedCoordinates(site.description, owner.path);
     return slot;
 }
 
@@ -137,8 +143,9 @@ ModelPaths::ModelPaths(const ModelDescription& description, const std::vector<st
     std::size_t next = 0;
     const auto addTo = [&](auto& slots, const auto& owner) {
         if (owner.path.functions)
-            m_functionPaths.push_back(
-                {owner.name, "/forceset/" + owner.name, FunctionBasedPath(*owner.path.functions, bodies)});
+            m_functionPaths.push_back({owner.name, "/forceset/" + owner.name,
+                                       FunctionBasedPath(*owner.path.functions, bodies),
+                                       findCrossedCoordinates(description, owner.path)});
         else
             slots.push_back(add(site, owner, wraps[next]));
         ++next;
@@ -151,11 +158,11 @@ ModelPaths::ModelPaths(const ModelDescription& description, const std::vector<st
 std::vector<ModelPaths::PathView> ModelPaths::getPaths() const {
     std::vector<PathView> paths;
     for (const MuscleSlot& slot : m_muscles)
-        paths.push_back({slot.name, slot.path, slot.cable, slot.muscle, slot.wraps, slot.start});
+        paths.push_back({slot.name, slot.path, slot.cable, slot.muscle, slot.wraps, slot.start, slot.coordinates});
     for (const SpringSlot& slot : m_springs)
-        paths.push_back({slot.name, slot.path, slot.cable, slot.spring, slot.wraps, slot.start});
+        paths.push_back({slot.name, slot.path, slot.cable, slot.spring, slot.wraps, slot.start, slot.coordinates});
     for (const PathForceSlot& slot : m_pathForces)
-        paths.push_back({slot.name, slot.path, slot.cable, slot.force, slot.wraps, slot.start});
+        paths.push_back({slot.name, slot.path, slot.cable, slot.force, slot.wraps, slot.start, slot.coordinates});
     return paths;
 }
 

@@ -6,7 +6,6 @@
 
 #include "model_skeleton.h"
 #include "tautline/models/coordinate_coupling.h"
-#include "tautline/models/crossed_coordinates.h"
 #include "tautline/models/model_system.h"
 
 namespace tautline::models {
@@ -41,17 +40,21 @@ bool hasLoops(const ModelDescription& description) {
                        [](const auto& constraint) { return !std::holds_alternative<CoordinateCoupler>(constraint); });
 }
 
-const MusclePath& getPath(const ModelDescription& description, const std::string& name) {
-    if (const Muscle* muscle = findMuscle(description, name)) return muscle->path;
-    if (const PathSpring* spring = findSpring(description, name)) return spring->path;
-    return findPathForce(description, name)->path;
-}
-
 std::vector<std::string> getObstacleNames(const Cable& cable) {
     std::vector<std::string> names;
     for (CableElementIndex e(0); e < cable.getNumElements(); ++e)
         if (cable.isObstacle(e)) names.push_back(cable.getElementName(e));
     return names;
+}
+
+/** PathAnswer::keepsSides */
+bool keepsSides(const Cable& cable, const PathSolution& solution) {
+    using Kind = RouteDeviation::Kind;
+    const RouteDeviation& deviation = solution.deviation;
+    if (deviation.kind == Kind::None || deviation.kind == Kind::Near) return true;
+    const bool isTouched = solution.contacts[static_cast<std::size_t>(deviation.element)].isTouched;
+    const bool isEndless = cable.getPathProblem().getElement(deviation.element).isEndless;
+    return deviation.kind == Kind::Side && !isTouched && !isEndless;
 }
 
 std::vector<ObstacleAnswer> getObstacles(const Cable& cable, const State& state) {
@@ -76,7 +79,7 @@ public:
         for (const ModelSystem::PathView& view : m_system.getPaths()) {
             if (isStudied(view.name)) {
                 m_cables.push_back(view.cable);
-                add(description, view.name, view.path, getObstacleNames(view.cable));
+                add({view.name, view.path, getObstacleNames(view.cable), view.coordinates, view.wraps});
             } else {
                 view.cable.disable(m_state);
             }
@@ -84,12 +87,18 @@ public:
         for (const ModelSystem::FunctionPathSlot& slot : m_system.getFunctionPaths()) {
             if (!isStudied(slot.name)) continue;
             m_functions.push_back(slot.function);
-            add(description, slot.name, slot.path, {});
+            add({slot.name, slot.path, {}, slot.coordinates, {}});
         }
     }
 
     const std::vector<StudiedPath>& getPaths() const { return m_paths; }
     const BuiltModel& getModel() const { return m_system.getModel(); }
+
+    CorePath getCorePath(std::size_t path) const {
+        if (path >= m_cables.size()) return {};
+        const Cable& cable = m_cables[path];
+        return {&cable.getPathProblem(), &cable.getPathPose(m_state), &cable.getSolution(m_state)};
+    }
 
     PoseAnswer solve(const ModelPose& pose) {
         requireFinite(pose.values, "the value");
@@ -109,15 +118,13 @@ public:
     }
 
 private:
-    void add(const ModelDescription& description, const std::string& name, const std::string& path,
-             std::vector<std::string> obstacles) {
-        m_paths.push_back(
-            {name, path, std::move(obstacles), findCrossedCoordinates(description, getPath(description, name))});
+    void add(StudiedPath path) {
         std::vector<int> indices;
         const std::vector<std::string>& all = getModel().getCoordinateNames();
-        for (const std::string& coordinate : m_paths.back().coordinates)
+        for (const std::string& coordinate : path.coordinates)
             indices.push_back(static_cast<int>(std::find(all.begin(), all.end(), coordinate) - all.begin()));
         m_coordinates.push_back(std::move(indices));
+        m_paths.push_back(std::move(path));
     }
 
     /** Finds the pose in the skeleton, where no path is solved on the way, and realizes all there.
@@ -149,6 +156,7 @@ private:
         answer.rate = cable.getLengthRate(m_state);
         answer.status = cable.getStatus(m_state);
         answer.deviation = solution.deviation.kind;
+        answer.keepsSides = keepsSides(cable, solution);
         if (answer.status != PathStatus::Solved || !answer.followsHints())
             answer.explanation = cable.explainStatus(m_state);
         answer.obstacles = getObstacles(cable, m_state);
@@ -208,6 +216,10 @@ const std::vector<std::string>& PathStudy::getCoordinateNames() const {
 
 PoseAnswer PathStudy::solve(const ModelPose& pose) {
     return m_implementation->solve(pose);
+}
+
+CorePath PathStudy::getCorePath(std::size_t path) const {
+    return m_implementation->getCorePath(path);
 }
 
 }  // namespace tautline::models

@@ -7,6 +7,7 @@
 
 #include "tautline/models/path_points.h"
 #include "tautline/simbody/conversions.h"
+#include "wrap_engagement.h"
 #include "wrap_surface.h"
 
 namespace tautline::models {
@@ -19,61 +20,9 @@ constexpr double kUnboundedRange = 1.0;
 /** Of a driven coordinate, the time over which its motion is sampled [s]. */
 constexpr double kSampledTime = 10.0;
 
-/** A straight segment of a path seen from a wrap object. */
-struct SegmentInObject {
-    Vec3 A, e;
-    double length = 0.0;
-    double lowest = 0.0;  ///< coordinate of its lowest point over the surface
-    double height = 0.0;  ///< of that point
-    bool hasEndInside = false;
-};
-
 SegmentInObject lookAtSegment(const Surface& surface, const SimTK::Transform& X_GW, const SimTK::Vec3& A_G,
                               const SimTK::Vec3& B_G) {
-    SegmentInObject segment;
-    const Vec3 A = toEigen(X_GW.shiftBaseStationToFrame(A_G)), B = toEigen(X_GW.shiftBaseStationToFrame(B_G));
-    segment.A = A;
-    segment.length = (B - A).norm();
-    segment.e = segment.length > 0 ? Vec3((B - A) / segment.length) : Vec3(Vec3::UnitX());
-    segment.lowest = surface.findLowestPoint(A, segment.e, segment.length);
-    segment.height = surface.calcHeight(A + segment.lowest * segment.e);
-    segment.hasEndInside = surface.calcHeight(A) < 0 || surface.calcHeight(B) < 0;
-    return segment;
-}
-
-/** The axis and sign of a quadrant; a zero vector for all. */
-Vec3 getActiveSide(Quadrant quadrant) {
-    switch (quadrant) {
-        case Quadrant::PlusX:
-            return Vec3::UnitX();
-        case Quadrant::MinusX:
-            return -Vec3::UnitX();
-        case Quadrant::PlusY:
-            return Vec3::UnitY();
-        case Quadrant::MinusY:
-            return -Vec3::UnitY();
-        case Quadrant::PlusZ:
-            return Vec3::UnitZ();
-        case Quadrant::MinusZ:
-            return -Vec3::UnitZ();
-        case Quadrant::All:
-            break;
-    }
-    return Vec3::Zero();
-}
-
-/** Whether a path wraps on this segment: where the segment meets the object, or where it passes it on the side opposite
-to the active one. A finite cylinder counts within its length only. */
-bool isEngaged(const WrapObject& object, const SegmentInObject& segment) {
-    if (segment.hasEndInside) return false;
-    const Vec3 D = segment.A + segment.lowest * segment.e, B = segment.A + segment.length * segment.e;
-    const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
-    if (cylinder && std::abs(D.z()) > 0.5 * cylinder->length) return false;
-    if (segment.height < 0) return true;
-    const Vec3 side = getActiveSide(object.quadrant);
-    if (!cylinder || side.isZero()) return false;
-    const bool isActiveA = segment.A.dot(side) > 0, isActiveB = B.dot(side) > 0;
-    return D.dot(side) < 0 && !(isActiveA && isActiveB);
+    return {surface, toEigen(X_GW.shiftBaseStationToFrame(A_G)), toEigen(X_GW.shiftBaseStationToFrame(B_G))};
 }
 
 /** First and last segment that the range of a wrap allows. */
@@ -167,7 +116,7 @@ void sampleWrap(const BuiltModel& model, const SimTK::State& state, const std::v
         if (isDefault) record.atDefault = segment;
         const bool engages = isEngaged(object, segment);
         record.numEngaged += engages;
-        record.numPierced += engages && segment.height < 0;
+        record.numPierced += engages && segment.isPierced();
     }
 }
 
@@ -217,10 +166,12 @@ void bindWrap(const SampledWrap& sampled, std::vector<BoundWrap>& bound) {
     const std::vector<SampledSegment>& segments = sampled.segments;
     const std::size_t chosen = chooseSegment(segments);
     const bool isOneSided = !getActiveSide(sampled.object->quadrant).isZero();
-    const auto isBound = [&](std::size_t s) { return s == chosen || (!isOneSided && segments[s].numPierced > 0); };
-    int numElsewhere = 0;
+    const auto isBound = [&](std::size_t s) {
+        return s == chosen || (isOneSided ? segments[s].numEngaged : segments[s].numPierced) > 0;
+    };
+    std::vector<std::size_t> alternatives;
     for (std::size_t s = 0; s < segments.size(); ++s)
-        if (!isBound(s)) numElsewhere += segments[s].numEngaged;
+        if (isOneSided && isBound(s)) alternatives.push_back(sampled.firstSegment + s);
     for (std::size_t s = 0; s < segments.size(); ++s) {
         if (!isBound(s)) continue;
         BoundWrap wrap;
@@ -232,8 +183,7 @@ void bindWrap(const SampledWrap& sampled, std::vector<BoundWrap>& bound) {
         wrap.place = calcPlace(segments[s].atDefault);
         wrap.hint_W = makeHint(sampled, segments[s].atDefault);
         wrap.start = s == chosen ? sampled.getWrap().start : std::nullopt;
-        wrap.numEngaged = segments[s].numEngaged;
-        wrap.numElsewhere = numElsewhere;
+        if (alternatives.size() > 1) wrap.alternatives = alternatives;
         bound.push_back(std::move(wrap));
     }
 }

@@ -34,20 +34,46 @@ Excitation interpolate(const StorageTable& table, std::size_t column) {
     };
 }
 
+/** The muscle of a column; empty if it is of none. */
+std::string findMuscleOf(std::string label, const std::vector<std::string>& muscles) {
+    const std::string folder = "/forceset/", end = ".excitation";
+    if (label.rfind(folder, 0) == 0) label = label.substr(folder.size());
+    if (isMuscle(muscles, label)) return label;
+    if (label.size() > end.size() && label.compare(label.size() - end.size(), end.size(), end) == 0)
+        label = label.substr(0, label.size() - end.size());
+    return isMuscle(muscles, label) ? label : "";
+}
+
+/** Puts the numbers of a column into [0, 1]. @return how many were outside, or no numbers */
+std::size_t clipColumn(StorageTable& table, std::size_t column) {
+    std::size_t numClipped = 0;
+    for (std::vector<double>& row : table.rows) {
+        if (row[column] >= 0 && row[column] <= 1) continue;
+        row[column] = row[column] > 1 ? 1.0 : 0.0;
+        ++numClipped;
+    }
+    return numClipped;
+}
+
 void readFile(const std::filesystem::path& file, const std::vector<std::string>& muscles,
-              std::map<std::string, Excitation>& excitations) {
-    const StorageTable table = readStorage(file);
+              std::map<std::string, Excitation>& excitations, std::vector<std::string>& notes) {
+    StorageTable table = readStorage(file);
+    std::vector<std::string> unused, clipped;
     for (std::size_t column = 1; column < table.labels.size(); ++column) {
-        std::string name = table.labels[column];
-        const std::string folder = "/forceset/";
-        if (name.rfind(folder, 0) == 0) name = name.substr(folder.size());
-        if (!isMuscle(muscles, name))
-            throw std::runtime_error(file.string() + ": column '" + table.labels[column] +
-                                     "' is no muscle of the model; it has " + listNames(muscles));
-        for (const std::vector<double>& row : table.rows)
-            requireUnitInterval(row[column], file.string() + ": '" + name + "' at time " + std::to_string(row[0]));
+        const std::string name = findMuscleOf(table.labels[column], muscles);
+        if (name.empty()) {
+            unused.push_back(table.labels[column]);
+            continue;
+        }
+        if (const std::size_t count = clipColumn(table, column); count > 0)
+            clipped.push_back(name + " (" + std::to_string(count) + " of " + std::to_string(table.rows.size()) + ")");
         excitations[name] = interpolate(table, column);
     }
+    if (unused.size() + 1 == table.labels.size())
+        throw std::runtime_error(file.string() + ": no column is a muscle of the model; it has " + listNames(muscles));
+    if (!unused.empty()) notes.push_back(file.string() + ": columns of no muscle, not used: " + listNames(unused));
+    if (!clipped.empty())
+        notes.push_back(file.string() + ": excitations outside [0, 1] are clipped: " + listNames(clipped));
 }
 
 std::pair<std::string, double> parseAssignment(const std::string& text) {
@@ -63,22 +89,38 @@ std::pair<std::string, double> parseAssignment(const std::string& text) {
     return {text.substr(0, equals), value};
 }
 
+/** Patterns first, in their order, then names. */
+void assign(const std::vector<std::string>& assignments, const std::vector<std::string>& muscles,
+            std::map<std::string, Excitation>& excitations) {
+    std::vector<std::string> assigned;
+    for (const bool isPattern : {true, false}) {
+        for (const std::string& text : assignments) {
+            const auto [given, value] = parseAssignment(text);
+            if (isMuscle(muscles, given) == isPattern) continue;
+            if (!isPattern && isMuscle(assigned, given))
+                throw std::runtime_error("--excitation: '" + given + "' is given twice");
+            assigned.push_back(given);
+            bool isUsed = false;
+            for (const std::string& name : muscles) {
+                if (isPattern ? !matchesPattern(name, given) : name != given) continue;
+                isUsed = true;
+                excitations[name] = [constant = value](double) { return constant; };
+            }
+            if (!isUsed)
+                throw std::runtime_error("--excitation '" + text + "': the model has no muscle '" + given +
+                                         "'; it has " + listNames(muscles));
+        }
+    }
+}
+
 }  // namespace
 
 std::map<std::string, Excitation> makeExcitations(const ExcitationOptions& options,
-                                                  const std::vector<std::string>& muscles, int& numDefault) {
+                                                  const std::vector<std::string>& muscles, int& numDefault,
+                                                  std::vector<std::string>& notes) {
     std::map<std::string, Excitation> excitations = options.prescribed;
-    if (!options.file.empty()) readFile(options.file, muscles, excitations);
-    std::vector<std::string> assigned;
-    for (const std::string& text : options.assignments) {
-        const auto [name, value] = parseAssignment(text);
-        if (!isMuscle(muscles, name))
-            throw std::runtime_error("--excitation '" + text + "': the model has no muscle '" + name + "'; it has " +
-                                     listNames(muscles));
-        if (isMuscle(assigned, name)) throw std::runtime_error("--excitation: '" + name + "' is given twice");
-        assigned.push_back(name);
-        excitations[name] = [constant = value](double) { return constant; };
-    }
+    if (!options.file.empty()) readFile(options.file, muscles, excitations, notes);
+    assign(options.assignments, muscles, excitations);
     numDefault = 0;
     for (const std::string& name : muscles) {
         const bool isNew = excitations.emplace(name, [](double) { return kDefaultExcitation; }).second;

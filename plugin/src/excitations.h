@@ -13,19 +13,24 @@ using Excitation = std::function<double(double)>;
 
 /** What the command line and the model say about excitations. */
 struct ExcitationOptions {
-    std::vector<std::string> assignments;  ///< NAME=VALUE each; they win over the file
-    std::filesystem::path file;            ///< a storage file with a column per muscle; empty: none
+    /** NAME=VALUE each, where NAME may be a pattern; they win over the file, names over patterns, and the last pattern
+    over those before. */
+    std::vector<std::string> assignments;
+    std::filesystem::path file;  ///< a storage file with a column per muscle; empty: none
     /** Of the model's controllers; file and command line win over them. */
     std::map<std::string, Excitation> prescribed = {};
 };
 
 inline constexpr double kDefaultExcitation = 0.05;
 
-/** An excitation for each muscle named in `muscles`. Columns are found by name or by "/forceset/<name>",
-linear between the file's times and constant outside. Throws std::runtime_error for an unknown muscle, a
-value that is not a number or not in [0, 1], a name given twice, or a file that readStorage() refuses.
-@param numDefault   how many muscles got the default */
+/** An excitation for each muscle named in `muscles`. Columns of the file are found by name, by "/forceset/<name>" or by
+"<name>.excitation", linear between its times and constant outside; values outside [0, 1] are clipped. Throws
+std::runtime_error for a name or pattern of no muscle, a value that is not a number or, on the command line, not in
+[0, 1], a name given twice, or a file that readStorage() refuses or that has no column of a muscle.
+@param numDefault   how many muscles got the default
+@param notes        what of the file was clipped or not used is added */
 std::map<std::string, Excitation> makeExcitations(const ExcitationOptions& options,
-                                                  const std::vector<std::string>& muscles, int& numDefault);
+                                                  const std::vector<std::string>& muscles, int& numDefault,
+                                                  std::vector<std::string>& notes);
 
 }  // namespace tautline

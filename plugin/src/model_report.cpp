@@ -53,13 +53,4 @@ void printMuscleTypes(const models::ModelDescription& description, std::ostream&
     for (const auto& [note, muscles] : notes) out << "note: " << muscles << ": " << note << "\n";
 }
 
-void printWrapNotes(const models::ModelSystem& model, std::ostream& out) {
-    for (const auto& slot : model.getPaths())
-        for (const models::BoundWrap& wrap : slot.wraps)
-            if (wrap.numElsewhere > 0)
-                out << "note: " << slot.name << ": wrap " << wrap.wrap + 1 << " engages on segment " << wrap.segment + 1
-                    << " in " << wrap.numEngaged << " sampled poses, on others in " << wrap.numElsewhere
-                    << "; it is bound to segment " << wrap.segment + 1 << "\n";
-}
-
 }  // namespace tautline

@@ -2,7 +2,7 @@
 #pragma once
 #include <ostream>
 
-#include "tautline/models/model_system.h"
+#include "tautline/models/model_description.h"
 
 namespace tautline {
 
@@ -14,8 +14,5 @@ void printReadingNotes(const models::ModelDescription& description, std::ostream
 
 /** How the muscles of each type are computed, and notes, each with the muscles that it is of. */
 void printMuscleTypes(const models::ModelDescription& description, std::ostream& out);
-
-/** Wraps that OpenSim would engage on other segments of their paths as well. */
-void printWrapNotes(const models::ModelSystem& model, std::ostream& out);
 
 }  // namespace tautline

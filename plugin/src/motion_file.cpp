@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "name_pattern.h"
-#include "storage_file.h"
 #include "tautline/models/scalar_function.h"
 
 namespace tautline {
@@ -23,25 +21,6 @@ constexpr double kLargestAngle = 8 * 3.14159265358979323846;
 
 bool endsWith(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-/** What a column holds of a coordinate. */
-struct Column {
-    std::string coordinate;
-    bool isSpeed = false;
-};
-
-/** A label without its folder and what follows it: the name of a coordinate, if it is one. */
-std::optional<Column> findColumn(const std::string& label, const ModelDescription& description) {
-    if (findCoordinate(description, label)) return Column{label, false};
-    for (const auto& [end, isSpeed] : {std::pair("/value", false), std::pair("/speed", true), std::pair("_u", true)}) {
-        if (!endsWith(label, end)) continue;
-        std::string name = label.substr(0, label.size() - std::string(end).size());
-        if (findCoordinate(description, name)) return Column{name, isSpeed};
-        name = name.substr(name.find_last_of('/') + 1);
-        if (findCoordinate(description, name)) return Column{name, isSpeed};
-    }
-    return {};
 }
 
 /** Of muscles and other forces, as OpenSim's states files have them beside coordinates. */
@@ -70,7 +49,7 @@ Columns findColumns(const StorageTable& table, const std::filesystem::path& file
     std::vector<std::string> unknown, states, asked;
     for (std::size_t i = 1; i < table.labels.size(); ++i) {
         const std::string& label = table.labels[i];
-        const std::optional<Column> column = findColumn(label, description);
+        const std::optional<CoordinateColumn> column = findCoordinateColumn(label, description);
         if (column) {
             auto& map = column->isSpeed ? columns.speeds : columns.values;
             if (!map.emplace(column->coordinate, i).second)
@@ -120,6 +99,22 @@ models::ScalarFunction makeSpline(const std::vector<double>& times, const std::v
 
 }  // namespace
 
+std::optional<CoordinateColumn> findCoordinateColumn(const std::string& label, const ModelDescription& description) {
+    if (findCoordinate(description, label)) return CoordinateColumn{label, false};
+    for (const auto& [end, isSpeed] : {std::pair("/value", false), std::pair("/speed", true), std::pair("_u", true)}) {
+        if (!endsWith(label, end)) continue;
+        std::string name = label.substr(0, label.size() - std::string(end).size());
+        if (findCoordinate(description, name)) return CoordinateColumn{name, isSpeed};
+        name = name.substr(name.find_last_of('/') + 1);
+        if (findCoordinate(description, name)) return CoordinateColumn{name, isSpeed};
+    }
+    return {};
+}
+
+double getUnit(const StorageTable& table, const ModelDescription& description, const std::string& coordinate) {
+    return table.isInDegrees && isRotational(description, coordinate) ? kDegree : 1.0;
+}
+
 Motion readMotion(const std::filesystem::path& file, const ModelDescription& description,
                   const std::vector<std::string>& ignored) {
     const StorageTable table = readStorage(file);
@@ -131,7 +126,7 @@ Motion readMotion(const std::filesystem::path& file, const ModelDescription& des
     std::vector<std::string> turned;
     for (const auto& [name, column] : columns.values) {
         const bool isAngle = isRotational(description, name);
-        const double factor = isAngle && table.isInDegrees ? kDegree : 1.0;
+        const double factor = getUnit(table, description, name);
         const std::vector<double> values = getNumbers(table, column, factor);
         const auto speeds = columns.speeds.find(name);
         const models::ScalarFunction spline = makeSpline(times, values);

@@ -2,9 +2,11 @@
 #pragma once
 /** Poses of a model from motion files and from the command line. */
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "storage_file.h"
 #include "tautline/models/path_study.h"
 
 namespace tautline {
@@ -26,6 +28,20 @@ there are fewer than three).
 @throws std::runtime_error naming the file and all columns that it cannot read, or a coordinate that has two */
 Motion readMotion(const std::filesystem::path& file, const models::ModelDescription& description,
                   const std::vector<std::string>& ignored);
+
+/** What a column of a motion or states file holds of a coordinate. */
+struct CoordinateColumn {
+    std::string coordinate;
+    bool isSpeed = false;
+};
+
+/** By a label such as <coordinate>, /jointset/<joint>/<coordinate>/speed or <coordinate>_u; nothing if it is of none.
+ */
+std::optional<CoordinateColumn> findCoordinateColumn(const std::string& label,
+                                                     const models::ModelDescription& description);
+
+/** By which numbers of a coordinate in a table must be multiplied to be in SI units. */
+double getUnit(const StorageTable& table, const models::ModelDescription& description, const std::string& coordinate);
 
 /** A coordinate with a value [rad or m]. */
 struct CoordinateValue {

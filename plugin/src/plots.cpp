@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots.h"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
@@ -19,6 +21,10 @@ using PathView = models::ModelSystem::PathView;
 
 /** More events than this are not marked: they would only blacken the picture. */
 constexpr std::size_t kMaxMarks = 60;
+
+/** Of an error on a logarithmic axis: that of a path of straight lines is exactly 0. */
+const std::string kSmallestDrawn = "1e-18";
+constexpr double kLowestTop = 1e-12;  ///< of that axis
 
 std::string quote(const std::string& text) {
     std::string quoted = "'";
@@ -43,6 +49,7 @@ struct Curve {
 struct Panel {
     std::string title, unit;
     bool isLogarithmic = false;
+    double largest = 0;  ///< number in it
     std::vector<Curve> curves;
 };
 
@@ -56,8 +63,13 @@ std::vector<std::string> findObstacles(const Cable& cable) {
 void addCurve(const StorageTable& table, const std::string& label, const std::string& title, int color, Panel& panel) {
     const auto at = std::find(table.labels.begin(), table.labels.end(), label);
     if (at == table.labels.end()) return;
-    panel.curves.push_back(
-        {table.name + ".sto", title, static_cast<std::size_t>(at - table.labels.begin()) + 1, color});
+    // gnuplot takes a curve without any point for an error.
+    const auto column = static_cast<std::size_t>(at - table.labels.begin());
+    const auto isDrawable = [&](const std::vector<double>& row) { return std::isfinite(row[column]); };
+    if (std::none_of(table.rows.begin(), table.rows.end(), isDrawable)) return;
+    for (const std::vector<double>& row : table.rows)
+        if (isDrawable(row)) panel.largest = std::max(panel.largest, row[column]);
+    panel.curves.push_back({table.name + ".sto", title, column + 1, color});
 }
 
 std::vector<Panel> makePanels(const PathView& path, const SimulationResult& result) {
@@ -66,12 +78,12 @@ std::vector<Panel> makePanels(const PathView& path, const SimulationResult& resu
         if (!panel.curves.empty()) panels.push_back(panel);
     };
     const auto addOfPath = [&](const std::string& quantity, const std::string& unit, bool isLogarithmic) {
-        Panel panel{quantity == "path_error" ? "path error" : quantity, unit, isLogarithmic, {}};
+        Panel panel{quantity == "path_error" ? "path error" : quantity, unit, isLogarithmic, 0, {}};
         addCurve(result.paths, path.path + "|" + quantity, "", 1, panel);
         addPanel(panel);
     };
     const auto addOfObstacles = [&](const std::string& quantity, const std::string& title, const std::string& unit) {
-        Panel panel{title, unit, false, {}};
+        Panel panel{title, unit, false, 0, {}};
         int color = 0;
         for (const std::string& name : findObstacles(path.cable))
             addCurve(result.clearances, path.path + "|" + quantity + "." + name, name, ++color, panel);
@@ -102,12 +114,18 @@ std::vector<std::string> findEventTimes(const PathView& path, const std::string&
 
 void writePanel(const Panel& panel, std::ostream& script) {
     script << "set title " << quote(panel.title + (panel.unit.empty() ? "" : " [" + panel.unit + "]")) << "\n"
-           << (panel.isLogarithmic ? "set logscale y\nset format y '%.0e'\n" : "unset logscale\nset format y\n")
+           << (panel.isLogarithmic ? "set logscale y\nset format y '%.0e'\nset yrange [" + kSmallestDrawn + ":" +
+                                         toText(std::max(kLowestTop, 2 * panel.largest)) + "]\n"
+                                   : "unset logscale\nset format y\nset yrange [*:*]\n")
            << "plot ";
     for (std::size_t i = 0; i < panel.curves.size(); ++i) {
         const Curve& curve = panel.curves[i];
         // Storage files: seven lines of header and labels.
-        script << (i ? ", \\\n     " : "") << quote(curve.file) << " skip 7 using 1:" << curve.column
+        const std::string column = std::to_string(curve.column), number = "$" + column;
+        script << (i ? ", \\\n     " : "") << quote(curve.file) << " skip 7 using 1:"
+               << (panel.isLogarithmic
+                       ? "(" + number + " > " + kSmallestDrawn + " ? " + number + " : " + kSmallestDrawn + ")"
+                       : column)
                << " with lines lw 1.5 lc " << curve.color << " "
                << (curve.title.empty() ? "notitle" : "title " + quote(curve.title));
     }
@@ -146,19 +164,37 @@ void writeStart(const PathView& path, const std::string& picture, std::ostream& 
     script << "\nunset output\nset datafile separator whitespace\nset xtics autofreq\n";
 }
 
-void runGnuplot(const std::filesystem::path& folder, const std::string& script) {
+/** All that can be read from a file descriptor, which is closed. */
+std::string readToEnd(int descriptor) {
+    std::string text;
+    char part[4096];
+    for (ssize_t count; (count = read(descriptor, part, sizeof part)) > 0;)
+        text.append(part, static_cast<std::size_t>(count));
+    close(descriptor);
+    return text;
+}
+
+/** @return what gnuplot says: warnings */
+std::string runGnuplot(const std::filesystem::path& folder, const std::string& script) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("gnuplot cannot be run: no pipe");
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
     std::string program = "gnuplot", file = script;
     char* arguments[] = {program.data(), file.data(), nullptr};
     pid_t process = 0;
     const int error = posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    const std::string said = readToEnd(ends[0]);
     int status = -1;
     if (error == 0) waitpid(process, &status, 0);
     if (error != 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        throw std::runtime_error("gnuplot failed; its script is " + (folder / script).string());
+        throw std::runtime_error("gnuplot failed; its script is " + (folder / script).string() +
+                                 (said.empty() ? "" : "; it says: " + said));
+    return said;
 }
 
 }  // namespace
@@ -172,7 +208,7 @@ void requireGnuplot() {
 }
 
 std::vector<std::filesystem::path> drawCurves(const models::ModelSystem& model, const SimulationResult& result,
-                                              const std::filesystem::path& folder) {
+                                              const std::filesystem::path& folder, std::string& said) {
     std::vector<std::filesystem::path> pictures;
     std::ostringstream script;
     script << "# Draws the results beside it: gnuplot curves.gp\n";
@@ -184,7 +220,7 @@ std::vector<std::filesystem::path> drawCurves(const models::ModelSystem& model, 
         writeStart(path, pictures.back().filename().string(), script);
     }
     writeWhole(script.str(), folder / "curves.gp");
-    runGnuplot(folder, "curves.gp");
+    said = runGnuplot(folder, "curves.gp");
     return pictures;
 }
 

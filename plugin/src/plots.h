@@ -15,9 +15,10 @@ void requireGnuplot();
 obstacles, signed distance, line coordinate and surface coordinates over time, dashed where contact changes
 (curves_<path>.svg), and the errors of its first iterations if the model gives a start (start_<path>.svg). Writes
 the gnuplot script curves.gp, which can be run again in the folder, and runs it.
+@param said   what gnuplot has to say of its script, such as warnings
 @return the pictures
-@throws std::runtime_error if gnuplot fails */
+@throws std::runtime_error if gnuplot fails, with what it says */
 std::vector<std::filesystem::path> drawCurves(const models::ModelSystem& model, const SimulationResult& result,
-                                              const std::filesystem::path& folder);
+                                              const std::filesystem::path& folder, std::string& said);
 
 }  // namespace tautline

@@ -2,12 +2,16 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 
 #include "excitations.h"
+#include "initial_state.h"
 #include "simulation_options.h"
 
 namespace tautline {
+
+struct SimulationResult;
 
 /** `tautline run`: simulates a model file and writes states.sto, paths.sto, muscles.sto if there are any,
 clearances.sto and events.csv, start.csv if the model gives geodesics to start from, and pictures if asked for. */
@@ -17,6 +21,11 @@ struct RunCommand {
     std::vector<std::string> ignored;
     ExcitationOptions excitations;
     SimulationOptions simulation;
+    std::filesystem::path statesFile, externalLoadsFile;
+    std::optional<double> startTime, endTime;  ///< [s]
+    std::vector<std::string> pose, speeds;     ///< NAME=VALUE
+    std::vector<std::string> locked;           ///< patterns of coordinates
+    std::vector<double> gravity;               ///< in ground [m/s^2]; empty: the model's
     bool allowsDegraded = false;
     bool drawsCurves = false;
     /** The page to look at; empty: none. */
@@ -26,9 +35,20 @@ struct RunCommand {
     void declare(CLI::App& app);
 
     /** @param isTerminal   whether `out` may be drawn a progress bar on
-    @return exit code: 0, or 3 if accepted steps had no verified path and that was not allowed. Throws
-    std::exception with one line for bad input; then no result file is written. */
+    @return exit code: 0; 3 if accepted steps had no verified path and that was not allowed; 4 if the simulation could
+    not go on; 130 if it was interrupted (Ctrl-C). In all these cases what there is is written. Throws std::exception
+    with one line for bad input; then no result file is written. */
     int run(std::ostream& out, bool isTerminal) const;
+
+private:
+    models::ModelDescription readModel() const;
+    InitialState makeInitialState(const models::ModelDescription& description, std::vector<std::string>& notes) const;
+    /** With the end that was given in place of a duration. */
+    SimulationOptions makeOptions(double start) const;
+    void addExternalLoads(const models::ModelDescription& description, models::ModelSystem& model,
+                          std::ostream& out) const;
+    /** Writes all result files. @return their names */
+    std::vector<std::string> writeResults(const SimulationResult& result) const;
 };
 
 }  // namespace tautline

@@ -51,7 +51,7 @@ void printRunTable(const models::ModelSystem& model, const SimulationResult& res
             << format(slot.force.getTension(result.finalState), 3) << std::setw(13)
             << format(summary.statistics.largestPathError, 1, true) << std::setw(7) << summary.contactsMade
             << std::setw(7) << summary.contactsLost << std::setw(12) << summary.statistics.numIterations
-            << std::setw(10) << summary.statistics.numDegradedSteps << "\n";
+            << std::setw(10) << summary.degradedSteps << "\n";
     }
     out << result.acceptedSteps << " steps, " << format(result.seconds, 3) << " s, of which "
         << format(100 * result.wrappingSeconds / std::max(result.seconds, 1e-9), 1) << " % in wrapping\n";
@@ -62,7 +62,13 @@ void printRunTable(const models::ModelSystem& model, const SimulationResult& res
                 << ", shorter by " << format(summary.slippedLength, 1, true)
                 << " m in all; what its force had stored in that length is lost\n";
     for (std::size_t i = 0; i < paths.size(); ++i)
-        if (const long numDegraded = result.summaries[i].statistics.numDegradedSteps; numDegraded > 0)
+        if (const int switches = result.summaries[i].switches; switches > 0)
+            out << "note: " << paths[i].name << ": a wrap object was switched off or on " << switches
+                << (switches == 1 ? " time" : " times")
+                << ", where a point entered or left it or the path passed beyond its end, as in OpenSim; the length "
+                   "jumps there (events.csv)\n";
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        if (const long numDegraded = result.summaries[i].degradedSteps; numDegraded > 0)
             out << "warning: " << paths[i].name << ": " << numDegraded << " steps without a verified minimum; first "
                 << result.summaries[i].firstDegradation << "\n";
 }

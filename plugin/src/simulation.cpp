@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
+#include "tautline/models/coordinate_coupling.h"
 #include "tautline/paths/path_explanation.h"
 #include "tautline/simbody/clearance_probe.h"
 
@@ -41,11 +43,14 @@ constexpr MuscleColumn kMuscleColumns[] = {
 /** Turns states of a simulation into rows and counts. */
 class Recorder {
 public:
-    Recorder(const ModelSystem& model, SimulationResult& result, std::function<void(const State&)> watchRow)
+    Recorder(const ModelSystem& model, bool recordsAllArms, SimulationResult& result,
+             std::function<void(const State&)> watchRow)
         : m_model(model), m_paths(model.getPaths()), m_result(result), m_watchRow(std::move(watchRow)) {
+        findArms(recordsAllArms);
         m_result.summaries.resize(m_paths.size());
+        m_numNotSolved.resize(m_paths.size());
         m_result.muscleSummaries.resize(model.getMuscles().size());
-        m_result.events = "time,path,obstacle,kind\n";
+        m_result.events = "time,path,obstacle,kind,length_change\n";
         m_result.states.name = "states", m_result.paths.name = "paths", m_result.clearances.name = "clearances";
         m_result.muscles.name = "muscles";
         labelStates();
@@ -68,13 +73,7 @@ public:
     void inspectStep(const State& state) {
         ++m_result.acceptedSteps;
         if (!m_paths.empty()) m_paths.front().cable.getSubsystem().countStep(state);
-        for (std::size_t i = 0; i < m_paths.size(); ++i) {
-            std::string& reason = m_result.summaries[i].firstDegradation;
-            if (reason.empty() && m_paths[i].cable.getStatistics().numDegradedSteps > 0)
-                reason = "at " + std::to_string(state.getTime()) +
-                         " s: " + getName(m_paths[i].cable.calcStatus(state)) + ", " +
-                         m_paths[i].cable.explainStatus(state);
-        }
+        for (std::size_t i = 0; i < m_paths.size(); ++i) judge(i, state);
         watchFibers(state);
     }
 
@@ -86,8 +85,10 @@ public:
             ++m_result.summaries[path].slips;
             m_result.summaries[path].slippedLength += event.lengthBefore - event.lengthAfter;
         }
+        if (event.kind == Kind::SwitchedOff || event.kind == Kind::SwitchedOn) ++m_result.summaries[path].switches;
         m_result.events += toText(event.time) + "," + m_paths[path].path + "," +
-                           m_paths[path].cable.getElementName(event.obstacle) + "," + describeKind(event.kind) + "\n";
+                           m_paths[path].cable.getElementName(event.obstacle) + "," + describeKind(event.kind) + "," +
+                           toText(event.lengthAfter - event.lengthBefore) + "\n";
     }
 
 private:
@@ -103,6 +104,10 @@ private:
                 return "left_hole";
             case ContactEvent::Kind::Slipped:
                 return "slipped";
+            case ContactEvent::Kind::SwitchedOff:
+                return "switched_off";
+            case ContactEvent::Kind::SwitchedOn:
+                return "switched_on";
         }
         return "";
     }
@@ -115,11 +120,23 @@ private:
             if (path.cable.isObstacle(e)) act(e, path.wraps[wrap++].form == models::SurfaceForm::Parametric);
     }
 
+    void judge(std::size_t i, const State& state) {
+        PathSummary& summary = m_result.summaries[i];
+        const Cable& cable = m_paths[i].cable;
+        const long before = std::exchange(m_numNotSolved[i], cable.getStatistics().numDegradedSteps);
+        if (m_numNotSolved[i] == before) return;
+        const PathStatus status = cable.calcStatus(state);
+        if (status == PathStatus::EndInside || summary.degradedSteps++ > 0) return;
+        summary.firstDegradation =
+            "at " + std::to_string(state.getTime()) + " s: " + getName(status) + ", " + cable.explainStatus(state);
+    }
+
     void labelStates() {
         m_result.states.labels = {"time"};
         for (const std::string& name : m_model.getModel().getCoordinateNames()) {
-            m_result.states.labels.push_back(name + "/value");
-            m_result.states.labels.push_back(name + "/speed");
+            const std::string& path = m_model.getModel().getCoordinateSlot(name).path;
+            m_result.states.labels.push_back(path + "/value");
+            m_result.states.labels.push_back(path + "/speed");
         }
         for (const auto& slot : m_model.getMuscles()) {
             if (hasActivation(slot)) m_result.states.labels.push_back(slot.path + "/activation");
@@ -140,16 +157,31 @@ private:
                 m_result.muscles.labels.push_back(slot.path + column.name);
     }
 
-    void labelPaths() {
-        m_result.paths.labels = {"time"};
+    /** Of each path the coordinates about which its moment arms are recorded. */
+    void findArms(bool recordsAllArms) {
+        const std::vector<std::string>& names = m_model.getModel().getCoordinateNames();
         for (const auto& path : m_paths) {
+            m_armCoordinates.emplace_back();
+            for (std::size_t i = 0; i < names.size(); ++i)
+                if (recordsAllArms ||
+                    std::find(path.coordinates.begin(), path.coordinates.end(), names[i]) != path.coordinates.end())
+                    m_armCoordinates.back().push_back(static_cast<int>(i));
+        }
+    }
+
+    void labelPaths() {
+        const std::vector<std::string>& names = m_model.getModel().getCoordinateNames();
+        m_result.paths.labels = {"time"};
+        for (std::size_t i = 0; i < m_paths.size(); ++i) {
+            const auto& path = m_paths[i];
             for (const char* quantity : {"|length", "|rate", "|tension", "|path_error"})
                 m_result.paths.labels.push_back(path.path + quantity);
             for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e)
                 if (path.cable.isObstacle(e))
                     m_result.paths.labels.push_back(path.path + "|contact." + path.cable.getElementName(e));
-            for (const std::string& name : m_model.getModel().getCoordinateNames())
-                m_result.paths.labels.push_back(path.path + "|moment_arm." + name);
+            for (const int coordinate : m_armCoordinates[i])
+                m_result.paths.labels.push_back(path.path + "|moment_arm." +
+                                                names[static_cast<std::size_t>(coordinate)]);
         }
     }
 
@@ -190,15 +222,18 @@ private:
 
     void recordPaths(const State& state) {
         std::vector<double> row = {state.getTime()};
-        for (const auto& path : m_paths) {
+        const models::CoordinateCoupling coupling(m_model.getModel(), state);
+        for (std::size_t i = 0; i < m_paths.size(); ++i) {
+            const auto& path = m_paths[i];
             row.push_back(path.cable.getLength(state));
             row.push_back(path.cable.getLengthRate(state));
             row.push_back(path.force.getTension(state));
             row.push_back(path.cable.getPathError(state));
             for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e)
                 if (path.cable.isObstacle(e)) row.push_back(path.cable.isTouched(state, e));
-            const std::vector<double> arms = m_model.calcMomentArms(state, path.cable);
-            row.insert(row.end(), arms.begin(), arms.end());
+            path.cable.calcUnitMobilityForces(state, m_unitForces);
+            for (const int coordinate : m_armCoordinates[i])
+                row.push_back(coupling.calcEffectiveArm(m_unitForces, coordinate));
         }
         m_result.paths.rows.push_back(row);
     }
@@ -232,7 +267,10 @@ private:
     std::vector<ModelSystem::PathView> m_paths;
     SimulationResult& m_result;
     std::function<void(const State&)> m_watchRow;
-    std::vector<ClearanceProbe> m_probes;  ///< one per obstacle, path by path
+    std::vector<ClearanceProbe> m_probes;            ///< one per obstacle, path by path
+    std::vector<std::vector<int>> m_armCoordinates;  ///< by path: indices of coordinates
+    std::vector<long> m_numNotSolved;                ///< by path: steps so far with a status other than solved
+    SimTK::Vector m_unitForces;
 };
 
 /** Tells a recorder of the contact events of paths as long as both are there. */
@@ -294,51 +332,133 @@ void setExcitations(ModelSystem& model, const std::map<std::string, Excitation>&
     }
 }
 
-/** Steps to the end of the run, recording a row at every multiple of the interval. */
-void integrate(ModelSystem& model, const State& initialState, const SimulationOptions& options, Recorder& recorder,
-               const std::function<void(double)>& reportProgress, State& finalState) {
-    SimTK::RungeKuttaMersonIntegrator integrator(model.getSystem());
-    integrator.setAccuracy(options.accuracy);
-    integrator.setReturnEveryInternalStep(true);
-    SimTK::TimeStepper stepper(model.getSystem(), integrator);
-    stepper.setReportAllSignificantStates(true);
-    stepper.initialize(initialState);
-    const int numRows = options.calcNumRows();
-    recorder.recordRow(stepper.getState());
-    for (int row = 1; row <= numRows; ++row) {
-        // Times as multiples, so that they do not drift.
-        const double time = row == numRows ? options.duration : row * options.interval;
-        while (stepper.getTime() < time) {
-            stepper.stepTo(time);
-            recorder.inspectStep(stepper.getState());
-        }
-        recorder.recordRow(stepper.getState());
-        reportProgress(static_cast<double>(row) / numRows);
+/** Which coordinate or muscle keeps a simulation from going on, in words. @param state   the last that was accepted */
+std::string describeStop(const ModelSystem& model, State& state) {
+    std::string culprit;
+    double largest = 0;
+    try {
+        model.getSystem().realize(state, Stage::Acceleration);
+    } catch (const std::exception&) {
+        return "its accelerations cannot be computed";
     }
-    finalState = stepper.getState();
-    model.getSystem().realize(finalState, Stage::Velocity);
+    for (const std::string& name : model.getModel().getCoordinateNames()) {
+        const auto& slot = model.getModel().getCoordinateSlot(name);
+        const SimTK::MobilizedBody& body = model.getModel().getMatter().getMobilizedBody(slot.body);
+        const double q = body.getOneQ(state, slot.q), u = body.getOneU(state, slot.u),
+                     udot = body.getOneUDot(state, slot.u);
+        if (!std::isfinite(q) || !std::isfinite(u)) return "coordinate '" + name + "' is no longer finite";
+        if (!std::isfinite(udot)) return "the acceleration of coordinate '" + name + "' is no longer finite";
+        if (std::abs(udot) < largest) continue;
+        largest = std::abs(udot);
+        culprit = "coordinate '" + name + "' moves faster than any step can follow (value " + toText(q) + ", speed " +
+                  toText(u) + ", acceleration " + toText(udot) + ")";
+    }
+    for (const auto& slot : model.getMuscles())
+        if (!std::isfinite(slot.muscle.calcDynamics(state).tendonForce))
+            return "the force of muscle '" + slot.name + "' is no longer finite";
+    return culprit.empty() ? "its state cannot be followed" : culprit;
+}
+
+/** A simulation from step to step. */
+class Run {
+public:
+    Run(const ModelSystem& model, const State& initialState, const SimulationOptions& options)
+        : m_integrator(model.getSystem()), m_stepper(model.getSystem(), m_integrator) {
+        m_integrator.setAccuracy(options.accuracy);
+        m_integrator.setReturnEveryInternalStep(true);
+        m_stepper.setReportAllSignificantStates(true);
+        m_stepper.initialize(initialState);
+        keep();
+    }
+
+    double getTime() const { return m_time; }
+    const State& getState() const { return m_stepper.getState(); }
+
+    /** @return false if no step leads on to a state that is finite */
+    bool step(double time) {
+        try {
+            m_stepper.stepTo(time);
+        } catch (const std::exception&) {
+            return false;  // what Simbody says is about its steps; describeStop() is about the model
+        }
+        if (!isFinite(getState())) return false;
+        keep();
+        return true;
+    }
+
+    /** The last state that was accepted. */
+    State getLastState() const {
+        State state = getState();
+        state.setTime(m_time);
+        state.updY() = m_y;
+        return state;
+    }
+
+private:
+    static bool isFinite(const State& state) {
+        for (int i = 0; i < state.getNY(); ++i)
+            if (!std::isfinite(state.getY()[i])) return false;
+        return true;
+    }
+    void keep() {
+        m_time = getState().getTime();
+        m_y = getState().getY();
+    }
+
+    SimTK::RungeKuttaMersonIntegrator m_integrator;
+    SimTK::TimeStepper m_stepper;
+    double m_time = 0;
+    SimTK::Vector m_y;
+};
+
+/** Steps to the end of the run, recording a row at every multiple of the interval, and one where it is interrupted. */
+void integrate(ModelSystem& model, const State& initialState, const SimulationOptions& options, Recorder& recorder,
+               const std::function<void(double)>& reportProgress, const std::function<bool()>& isInterrupted,
+               SimulationResult& result) {
+    using Kind = SimulationEnding::Kind;
+    Run run(model, initialState, options);
+    const double start = run.getTime();
+    const int numRows = options.calcNumRows();
+    recorder.recordRow(run.getState());
+    Kind kind = Kind::Finished;
+    for (int row = 1; row <= numRows && kind == Kind::Finished; ++row) {
+        // Times as multiples, so that they do not drift.
+        const double time = start + (row == numRows ? options.duration : row * options.interval);
+        while (run.getTime() < time && kind == Kind::Finished) {
+            if (!run.step(time))
+                kind = Kind::Stuck;
+            else
+                recorder.inspectStep(run.getState());
+            if (kind == Kind::Finished && isInterrupted && isInterrupted()) kind = Kind::Interrupted;
+        }
+        if (kind != Kind::Stuck) recorder.recordRow(run.getState());
+        reportProgress((run.getTime() - start) / options.duration);
+    }
+    result.finalState = run.getLastState();
+    result.ending = {kind, run.getTime(), kind == Kind::Stuck ? describeStop(model, result.finalState) : ""};
+    model.getSystem().realize(result.finalState, Stage::Velocity);
 }
 
 }  // namespace
 
 SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excitation>& excitations,
                           const SimulationOptions& options, const std::function<void(double)>& reportProgress,
-                          const std::function<void(const State&)>& watchRow) {
+                          const std::function<void(const State&)>& watchRow, const InitialState& initial,
+                          const std::function<bool()>& isInterrupted) {
     options.validate();
     SimulationResult result;
     const std::vector<ModelSystem::PathView> paths = model.getPaths();
     for (const ModelSystem::PathView& path : paths) path.cable.resetStatistics();
     setExcitations(model, excitations);
     State state = model.makeDefaultState();
-    model.getSystem().realize(state, Stage::Position);
-    model.requireRegularPose(state);
+    initial.setPose(model, state);
     startPaths(model, state, result);
-    const std::vector<MuscleEquilibrium> starts = model.equilibrateMuscles(state);
-    Recorder recorder(model, result, watchRow);
+    const std::vector<MuscleEquilibrium> starts = initial.setMuscles(model, state);
+    Recorder recorder(model, options.recordsAllArms, result, watchRow);
     for (std::size_t i = 0; i < starts.size(); ++i) result.muscleSummaries[i].start = starts[i];
     const ListenerScope listening(paths, recorder);
     const auto start = std::chrono::steady_clock::now();
-    integrate(model, state, options, recorder, reportProgress, result.finalState);
+    integrate(model, state, options, recorder, reportProgress, isInterrupted, result);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (std::size_t i = 0; i < paths.size(); ++i) {
         result.summaries[i].statistics = paths[i].cable.getStatistics();

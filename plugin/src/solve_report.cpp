@@ -102,7 +102,11 @@ void printStudy(const PathStudy& study, const std::vector<double>& times, const 
         study, times, answers, "warning", [](const PathAnswer& path) { return !path.isSound(); }, out);
     printFrames(
         study, times, answers, "note",
-        [](const PathAnswer& path) { return path.isSound() && !path.explanation.empty(); }, out);
+        [](const PathAnswer& path) {
+            return path.isSound() &&
+                   (path.status == PathStatus::EndInside || path.deviation == RouteDeviation::Kind::Near);
+        },
+        out);
     std::size_t numFaults = 0, first = 0;
     for (std::size_t i = 0; i < answers.size(); ++i)
         if (!answers[i].constraintFault.empty() && numFaults++ == 0) first = i;

@@ -110,6 +110,10 @@ CableElementIndex Cable::addObstacle(const MobilizedBody& body, const SimTK::Tra
     return upd().insertElement(std::move(obstacle));
 }
 
+void Cable::setCondition(CableElementIndex obstacle, std::function<bool(const State&)> isActive) {
+    upd().setCondition(obstacle, std::move(isActive));
+}
+
 void Cable::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
     upd().setHint(obstacle, toStartHint(hint_S));
 }

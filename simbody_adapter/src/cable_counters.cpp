@@ -27,6 +27,8 @@ void CableCounters::countEvent(PathEvent::Kind kind) {
     switch (kind) {
         case PathEvent::Kind::Touched:
         case PathEvent::Kind::Lifted:
+        case PathEvent::Kind::SwitchedOff:
+        case PathEvent::Kind::SwitchedOn:
             ++m_contactEvents;
             return;
         case PathEvent::Kind::Slipped:

@@ -33,6 +33,12 @@ CableElementIndex CableElements::insert(CableElement element) {
     return index;
 }
 
+void CableElements::setCondition(CableElementIndex obstacle, std::function<bool(const State&)> isActive) {
+    require(!getObstacle(obstacle).isActive, "cable '", m_cableName, "': obstacle '", getObstacle(obstacle).name,
+            "' has a condition already");
+    m_elements[obstacle].isActive = std::move(isActive);
+}
+
 void CableElements::setHint(CableElementIndex obstacle, const StartHint& hint) {
     CableElement changed = getObstacle(obstacle);
     changed.hint = hint;

@@ -22,7 +22,7 @@ struct CableElement {
     std::shared_ptr<const Surface> surface;  ///< null: a point
     StartHint hint;
     std::shared_ptr<const MovingStation> moving = nullptr;        ///< of a point; null: it is fixed at X_BE
-    std::function<bool(const SimTK::State&)> isActive = nullptr;  ///< of a point; null: always
+    std::function<bool(const SimTK::State&)> isActive = nullptr;  ///< null: always
 };
 
 /** The elements of a cable in path order, origin first and insertion last: how they move with their bodies, and how
@@ -38,6 +38,8 @@ public:
     /** @param element   before the insertion; without a name it gets one
     @throws InvalidInput if its name is taken or its hint does not suit its surface */
     CableElementIndex insert(CableElement element);
+    /** @throws InvalidInput if `obstacle` is none or has a condition already */
+    void setCondition(CableElementIndex obstacle, std::function<bool(const SimTK::State&)> isActive);
     /** @throws InvalidInput if `obstacle` is none, or the hint does not suit its surface */
     void setHint(CableElementIndex obstacle, const StartHint& hint);
 

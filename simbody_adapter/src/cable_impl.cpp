@@ -28,6 +28,10 @@ ContactEvent::Kind toContactEventKind(PathEvent::Kind kind) {
             return ContactEvent::Kind::Lost;
         case PathEvent::Kind::LeftHole:
             return ContactEvent::Kind::LeftHole;
+        case PathEvent::Kind::SwitchedOff:
+            return ContactEvent::Kind::SwitchedOff;
+        case PathEvent::Kind::SwitchedOn:
+            return ContactEvent::Kind::SwitchedOn;
         case PathEvent::Kind::Slipped:
             break;
     }
@@ -63,6 +67,12 @@ CableElementIndex CableImpl::insertElement(CableElement element) {
 void CableImpl::setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station) {
     m_elements.setMovingEnd(isOrigin, std::move(station));
     m_cables.invalidateSubsystemTopologyCache();
+}
+
+void CableImpl::setCondition(CableElementIndex obstacle, std::function<bool(const State&)> isActive) {
+    m_elements.setCondition(obstacle, std::move(isActive));
+    m_cables.invalidateSubsystemTopologyCache();
+    m_cables.updSystem().addEventHandler(new ConditionEventHandler(*this, obstacle));
 }
 
 void CableImpl::setHint(CableElementIndex obstacle, const StartHint& hint) {
@@ -248,14 +258,26 @@ void CableImpl::handleContactEvent(State& state) const {
     if (mode.isDisabled || !mode.keepsContacts) return;
     m_cables.getSystem().realize(state, Stage::Velocity);
     getPath(state, "ContactEventHandler::handleEvent()");
-    const TrackedPath before = m_state.getPath(state);
+    const TrackedPath before = calcPathBeforeSwitch(state);
     const PathMotion motion = getMotion(state);
-    TrackedPath after = before;
+    TrackedPath after = m_state.getPath(state);
     const std::vector<PathEvent> events =
         m_state.updWorkspace(state).tracker.resolveEvent(m_problem, m_state.getStart(state), after);
     setStart(state, after);
     m_state.updStartMotion(state) = motion;
     report(events, before.solution, after, motion);
+}
+
+/** The path of this state as if the conditions of points and obstacles still were those of the step's start: what it
+was just before they changed. */
+TrackedPath CableImpl::calcPathBeforeSwitch(const State& state) const {
+    const TrackedPath& start = m_state.getStart(state);
+    const TrackedPath& path = m_state.getPath(state);
+    if (start.solution.isEmpty() || start.pose.isActive == path.pose.isActive) return path;
+    TrackedPath before = path;
+    before.pose.isActive = start.pose.isActive;
+    m_state.updWorkspace(state).tracker.track(m_problem, start, m_state.getStartMotion(state), before);
+    return before.solution.status == PathStatus::NotConverged ? path : before;
 }
 
 void CableImpl::report(const std::vector<PathEvent>& events, const PathSolution& before, const TrackedPath& after,

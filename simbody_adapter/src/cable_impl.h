@@ -22,6 +22,7 @@ public:
     void setEnds(CableElement origin, CableElement insertion);
     CableElementIndex insertElement(CableElement element);
     void setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station);
+    void setCondition(CableElementIndex obstacle, std::function<bool(const SimTK::State&)> isActive);
     void setHint(CableElementIndex obstacle, const StartHint& hint);
     void setOptions(const PathSolverOptions& options);
     void setDisabledByDefault(bool isDisabled);
@@ -81,6 +82,7 @@ private:
     /** Stage: Velocity, of the cables too. */
     const PathMotion& getMotion(const SimTK::State& state) const;
     void setStart(SimTK::State& state, const TrackedPath& path) const;
+    TrackedPath calcPathBeforeSwitch(const SimTK::State& state) const;
     void report(const std::vector<PathEvent>& events, const PathSolution& before, const TrackedPath& after,
                 const PathMotion& motion) const;
 

@@ -158,7 +158,7 @@ TEST(ModelSystem, WrapsAreBoundToTheSegmentsOfTheirRanges) {
         for (const BoundWrap& wrap : model.getMuscles()[i].wraps) {
             EXPECT_EQ(static_cast<int>(wrap.segment) + 1, path.wraps[wrap.wrap].range[0])
                 << description.muscles[i].name;
-            EXPECT_EQ(wrap.numElsewhere, 0);
+            EXPECT_TRUE(wrap.alternatives.empty());
         }
     }
 }

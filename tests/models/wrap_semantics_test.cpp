@@ -17,10 +17,12 @@ std::string makePoint(const std::string& name, const Point& p, double z = 0.0) {
            std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(z) + "</location></PathPoint>";
 }
 
-/** Wrap objects on ground and a string over them in the plane z = 0. */
-std::string makeString(const std::string& objects, const std::vector<Point>& points, const std::string& wraps) {
+/** Wrap objects on ground and a string over them, in the plane z = 0 or through points at `z`. */
+std::string makeString(const std::string& objects, const std::vector<Point>& points, const std::string& wraps,
+                       const std::vector<double>& z = {}) {
     std::string list;
-    for (std::size_t i = 0; i < points.size(); ++i) list += makePoint("p" + std::to_string(i), points[i]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        list += makePoint("p" + std::to_string(i), points[i], z.empty() ? 0.0 : z[i]);
     return "<Ground name=\"ground\"><WrapObjectSet><objects>" + objects + "</objects></WrapObjectSet></Ground>" +
            makePinModel("<ForceSet><objects><PathSpring name=\"s\"><GeometryPath><PathPointSet><objects>" + list +
                         "</objects></PathPointSet><PathWrapSet><objects>" + wraps +
@@ -123,6 +125,68 @@ TEST(WrapSemantics, AQuadrantDecidesTheSideOfALineThroughTheObject) {
         const double d = std::hypot(1, 0.05), swept = SimTK::Pi - sign * 2 * std::atan2(0.05, 1);
         EXPECT_NEAR(string.getLength(), 2 * std::sqrt(d * d - 0.09) + 0.3 * (swept - 2 * std::acos(0.3 / d)), 1e-11);
     }
+}
+
+/** Over the top of a circle at the origin, from the left to the right, from wherever the points are outside it. */
+double calcOverTop(const Point& a, const Point& b, double r) {
+    const double A = std::hypot(a.x, a.y), B = std::hypot(b.x, b.y);
+    const double to = std::atan2(b.y, b.x);
+    double from = std::atan2(a.y, a.x);
+    if (from < to) from += 2 * SimTK::Pi;
+    return std::sqrt(A * A - r * r) + std::sqrt(B * B - r * r) + r * (from - to - std::acos(r / A) - std::acos(r / B));
+}
+
+TEST(WrapSemantics, AOneSidedObjectEngagesOnTheFirstSegmentThatMeetsIt) {
+    const Point a{-1, -0.2}, b{0, 0.9}, c{1, -0.2};
+    const StringModel string(makeString(makeCylinder("c", {0, 0}, 0.65, "y"), {a, b, c}, makeWrap("c")));
+    EXPECT_EQ(string.getCable().getNumElements(), 5);
+    EXPECT_EQ(string.getStatus(), PathStatus::Solved);
+    EXPECT_NEAR(string.getLength(), calcOverTop(a, b, 0.65) + calcDistance(b, c), 1e-11);
+}
+
+/** No segment meets the cylinder, and all points are on its inactive side: OpenSim leads one of the segments over the
+top, the one that this lengthens least. */
+TEST(WrapSemantics, AOneSidedCylinderEngagesOnTheSegmentThatItLengthensLeast) {
+    for (const double x : {-0.3, -0.05, 0.2}) {
+        SCOPED_TRACE(x);
+        const Point a{-1, -0.2}, b{x, -0.8}, c{1, -0.2};
+        const StringModel string(makeString(makeCylinder("c", {0, 0}, 0.3, "y"), {a, b, c}, makeWrap("c")));
+        const double first = calcOverTop(a, b, 0.3) + calcDistance(b, c),
+                     second = calcDistance(a, b) + calcOverTop(b, c, 0.3);
+        EXPECT_EQ(string.getStatus(), PathStatus::Solved);
+        EXPECT_NEAR(string.getLength(), std::min(first, second), 1e-11);
+    }
+}
+
+/** The cylinder reaches from z = -0.5 to 0.5. OpenSim lets go of it where both ends of the arc would lie beyond. */
+TEST(WrapSemantics, ACylinderHoldsAStringWithinItsLengthOnly) {
+    const Point a{-1, 0.1}, b{1, 0.1};
+    const double round = calcRound(a, b, 0.3), straight = calcDistance(a, b);
+    const double toArc = std::sqrt(1.01 - 0.09) / round;  // the straight part before or after the arc, of the whole
+    struct Case {
+        double zA, zB;
+        bool isHeld;
+    };
+    const double arcBeyond = 1.0 / (1 - 2 * toArc);  // dz over the string that makes the arc alone 1 long
+    const Case cases[] = {{0.4, 0.4, true},
+                          {0.6, 0.6, false},
+                          {-0.6, -0.6, false},
+                          {0.2, 0.6, true},
+                          {0.7, 0.2, true},
+                          // The first tangent point just within and just beyond the end, the last farther out.
+                          {0.499 - toArc * 0.8, 0.499 - toArc * 0.8 + 0.8, true},
+                          {0.501 - toArc * 0.8, 0.501 - toArc * 0.8 + 0.8, false},
+                          // Over both ends at once.
+                          {-0.51 * arcBeyond, 0.51 * arcBeyond, false},
+                          {-0.49 * arcBeyond, 0.49 * arcBeyond, true}};
+    for (const char* quadrant : {"all", "y"})
+        for (const Case& test : cases) {
+            SCOPED_TRACE(std::string(quadrant) + " " + std::to_string(test.zA) + " " + std::to_string(test.zB));
+            const StringModel string(
+                makeString(makeCylinder("c", {0, 0}, 0.3, quadrant), {a, b}, makeWrap("c"), {test.zA, test.zB}));
+            EXPECT_EQ(string.getStatus(), PathStatus::Solved);
+            EXPECT_NEAR(string.getLength(), std::hypot(test.isHeld ? round : straight, test.zB - test.zA), 1e-6);
+        }
 }
 
 }  // namespace

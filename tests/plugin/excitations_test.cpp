@@ -12,8 +12,9 @@ const std::vector<std::string> kMuscles = {"biceps", "triceps"};
 
 void expectRefused(const ExcitationOptions& options, const std::string& message) {
     int numDefault;
+    std::vector<std::string> notes;
     try {
-        makeExcitations(options, kMuscles, numDefault);
+        makeExcitations(options, kMuscles, numDefault, notes);
         FAIL() << "not refused: " << message;
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
@@ -28,7 +29,8 @@ std::filesystem::path makeFile(const std::string& rows) {
 
 TEST(Excitations, AreTheDefaultUnlessGiven) {
     int numDefault;
-    const auto excitations = makeExcitations({{"triceps=0.5"}, {}}, kMuscles, numDefault);
+    std::vector<std::string> notes;
+    const auto excitations = makeExcitations({{"triceps=0.5"}, {}}, kMuscles, numDefault, notes);
     EXPECT_EQ(numDefault, 1);
     EXPECT_EQ(excitations.at("biceps")(0.3), kDefaultExcitation);
     EXPECT_EQ(excitations.at("triceps")(0.3), 0.5);
@@ -36,8 +38,9 @@ TEST(Excitations, AreTheDefaultUnlessGiven) {
 
 TEST(Excitations, FromAFileAreLinearAndConstantOutside) {
     int numDefault;
+    std::vector<std::string> notes;
     const auto excitations =
-        makeExcitations({{}, makeFile("time\t/forceset/biceps\n1\t0.2\n2\t0.6\n")}, kMuscles, numDefault);
+        makeExcitations({{}, makeFile("time\t/forceset/biceps\n1\t0.2\n2\t0.6\n")}, kMuscles, numDefault, notes);
     EXPECT_EQ(numDefault, 1);
     EXPECT_EQ(excitations.at("biceps")(0), 0.2);
     EXPECT_DOUBLE_EQ(excitations.at("biceps")(1.25), 0.3);
@@ -46,8 +49,35 @@ TEST(Excitations, FromAFileAreLinearAndConstantOutside) {
 
 TEST(Excitations, OfTheCommandLineWinOverTheFile) {
     int numDefault;
-    const auto excitations = makeExcitations({{"biceps=1"}, makeFile("time biceps\n0 0.2\n")}, kMuscles, numDefault);
+    std::vector<std::string> notes;
+    const auto excitations =
+        makeExcitations({{"biceps=1"}, makeFile("time biceps\n0 0.2\n")}, kMuscles, numDefault, notes);
     EXPECT_EQ(excitations.at("biceps")(0), 1);
+}
+
+TEST(Excitations, PatternsComeBeforeNamesAndTheLastPatternWins) {
+    int numDefault;
+    std::vector<std::string> notes;
+    const auto excitations = makeExcitations({{"biceps=0.9", "*=0.1", "?riceps=0.2"}, {}}, kMuscles, numDefault, notes);
+    EXPECT_EQ(numDefault, 0);
+    EXPECT_EQ(excitations.at("biceps")(0), 0.9);
+    EXPECT_EQ(excitations.at("triceps")(0), 0.2);
+}
+
+TEST(Excitations, OfAFileAreClippedWithANoteAndOtherColumnsNotUsedWithAnother) {
+    int numDefault;
+    std::vector<std::string> notes;
+    const auto file = makeFile("time FX /forceset/biceps triceps.excitation\n0 7 -0.1 0.5\n1 7 1.5 0.5\n2 7 nan 0.5\n");
+    const auto excitations = makeExcitations({{}, file}, kMuscles, numDefault, notes);
+    EXPECT_EQ(numDefault, 0);
+    EXPECT_EQ(excitations.at("biceps")(0), 0.0);
+    EXPECT_EQ(excitations.at("biceps")(0.5), 0.5);
+    EXPECT_EQ(excitations.at("biceps")(1), 1.0);
+    EXPECT_EQ(excitations.at("biceps")(2), 0.0);
+    EXPECT_EQ(excitations.at("triceps")(1.5), 0.5);
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0], file.string() + ": columns of no muscle, not used: FX");
+    EXPECT_EQ(notes[1], file.string() + ": excitations outside [0, 1] are clipped: biceps (3 of 3)");
 }
 
 TEST(Excitations, BadOnesAreRefusedByName) {
@@ -59,8 +89,8 @@ TEST(Excitations, BadOnesAreRefusedByName) {
     expectRefused({{"biceps=nan"}, {}}, "an excitation lies in [0, 1]");
     expectRefused({{"soleus=0.1"}, {}}, "no muscle 'soleus'; it has biceps, triceps");
     expectRefused({{"biceps=0.1", "biceps=0.2"}, {}}, "given twice");
-    expectRefused({{}, makeFile("time soleus\n0 0.1\n")}, "column 'soleus' is no muscle of the model");
-    expectRefused({{}, makeFile("time biceps\n0 -0.1\n")}, "an excitation lies in [0, 1]");
+    expectRefused({{"sol*=0.1"}, {}}, "no muscle 'sol*'; it has biceps, triceps");
+    expectRefused({{}, makeFile("time soleus\n0 0.1\n")}, "no column is a muscle of the model; it has biceps, triceps");
 }
 
 }  // namespace

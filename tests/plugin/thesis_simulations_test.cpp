@@ -73,8 +73,8 @@ TEST(ThesisParaboloid, TouchesAndLiftsOffWhereTheLineIsTangent) {
     const double touchdown = 5 / (2 * SimTK::Pi) * std::acos(-(calcTouchingHeight() + 0.5) / 3);
     double times[2] = {};
     ASSERT_EQ(std::sscanf(run.result.events.c_str(),
-                          "time,path,obstacle,kind\n%lf,/forceset/string,paraboloid,touchdown\n"
-                          "%lf,/forceset/string,paraboloid,liftoff\n",
+                          "time,path,obstacle,kind,length_change\n%lf,/forceset/string,paraboloid,touchdown,%*f\n"
+                          "%lf,/forceset/string,paraboloid,liftoff,%*f\n",
                           &times[0], &times[1]),
               2)
         << run.result.events;
@@ -270,9 +270,9 @@ TEST(ThesisFourSurfaces, MassMovesAsTheStringAndGravityPull) {
     const SimulatedModel run("four_surfaces_implicit", makeOptions(1.2, h, 1e-9));
     const std::vector<double> length = run.getOfString("length"), rate = run.getOfString("rate");
     const std::vector<double> tension = run.getOfString("tension");
-    const std::vector<double> x = SimulatedModel::get(run.result.states, "point_tx/value");
-    const std::vector<double> y = SimulatedModel::get(run.result.states, "point_ty/value");
-    const std::vector<double> z = SimulatedModel::get(run.result.states, "point_tz/value");
+    const std::vector<double> x = SimulatedModel::get(run.result.states, "/jointset/free_point/point_tx/value");
+    const std::vector<double> y = SimulatedModel::get(run.result.states, "/jointset/free_point/point_ty/value");
+    const std::vector<double> z = SimulatedModel::get(run.result.states, "/jointset/free_point/point_tz/value");
     for (std::size_t k = 1; k + 1 < x.size(); ++k) {
         EXPECT_NEAR(tension[k], 40 * (length[k] - 7.2) * (1 + 0.2 * rate[k]), 1e-12);
         const auto calcAcceleration = [&](const std::vector<double>& p) {

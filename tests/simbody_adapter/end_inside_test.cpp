@@ -80,5 +80,98 @@ TEST(EndInside, ComesOutOfEverySurfaceAsIfFoundAnew) {
     for (const auto& surface : surfaces) EXPECT_GE(numSolved[surface.get()], 3) << surface->getDescription();
 }
 
+/** An end goes along y = 0.3 into a cylinder of radius 0.5 at t = 1.6 s and out of it at 2.4 s. */
+std::vector<ContactEvent> passThroughCylinder(const SimTK::Vec3& origin_G) {
+    PassingEnd scene(std::make_shared<Cylinder>(0.5), origin_G, SimTK::Vec3(0, 0.3, 0));
+    std::vector<ContactEvent> events;
+    scene.cable.setContactListener([&](const ContactEvent& event) { events.push_back(event); });
+    State initial = scene.system.realizeTopology();
+    scene.slider.setOneQ(initial, 0, -2);
+    scene.slider.setOneU(initial, 0, 1);
+    SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+    integrator.setAccuracy(1e-6);
+    integrator.setMaximumStepSize(0.05);
+    SimTK::TimeStepper stepper(scene.system, integrator);
+    stepper.initialize(initial);
+    stepper.stepTo(4);
+    return events;
+}
+
+/** Length from a point on the cylinder, at an angle, over its top to a point beside it. */
+double calcOverTop(double angle, double x, double y) {
+    const double d = std::hypot(x, y);
+    return std::sqrt(d * d - 0.25) + 0.5 * (angle - std::atan2(y, x) - std::acos(0.5 / d));
+}
+
+TEST(EndInside, SwitchesOffAnObstacleThatWasTouchedByAnEventOfItsOwn) {
+    const std::vector<ContactEvent> events = passThroughCylinder(SimTK::Vec3(1.5, 0.1, 0));
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].kind, ContactEvent::Kind::SwitchedOff);
+    EXPECT_NEAR(events[0].time, 1.6, 1e-6);
+    EXPECT_NEAR(events[0].lengthBefore, calcOverTop(std::atan2(0.3, -0.4), 1.5, 0.1), 1e-6);
+    EXPECT_NEAR(events[0].lengthAfter, std::hypot(1.9, 0.2), 1e-6);
+}
+
+TEST(EndInside, SwitchesOnAnObstacleThatIsTouchedWhereTheEndComesOut) {
+    const std::vector<ContactEvent> events = passThroughCylinder(SimTK::Vec3(-1.5, 0.1, 0));
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].kind, ContactEvent::Kind::SwitchedOn);
+    EXPECT_NEAR(events[0].time, 2.4, 1e-6);
+    EXPECT_NEAR(events[0].lengthBefore, std::hypot(1.9, 0.2), 1e-6);
+    EXPECT_NEAR(events[0].lengthAfter, calcOverTop(std::atan2(0.3, -0.4), 1.5, 0.1), 1e-6) << "mirrored";
+}
+
+TEST(ConditionalObstacle, TakesPartWhileItsConditionIsTrue) {
+    PassingEnd scene(std::make_shared<Cylinder>(0.5), SimTK::Vec3(1.5, 0.1, 0), SimTK::Vec3(0, 0.3, 0));
+    const CableElementIndex cylinder(1);
+    const auto isActive = [&](const State& state) {
+        const Real x = scene.slider.getOneQ(state, 0);
+        return x < -1.5 || x > -1;
+    };
+    scene.cable.setCondition(cylinder, isActive);
+    EXPECT_THROW(scene.cable.setCondition(cylinder, isActive), InvalidInput) << "once";
+    EXPECT_THROW(scene.cable.setCondition(CableElementIndex(0), isActive), InvalidInput) << "a point";
+    std::vector<ContactEvent> events;
+    scene.cable.setContactListener([&](const ContactEvent& event) { events.push_back(event); });
+    State initial = scene.system.realizeTopology();
+    scene.slider.setOneQ(initial, 0, -2);
+    scene.slider.setOneU(initial, 0, 1);
+    SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+    integrator.setAccuracy(1e-6);
+    integrator.setMaximumStepSize(0.05);
+    SimTK::TimeStepper stepper(scene.system, integrator);
+    stepper.initialize(initial);
+    stepper.stepTo(1.5);
+    ASSERT_EQ(events.size(), 2u);
+    using Kind = ContactEvent::Kind;
+    const auto calcOver = [](double x) {
+        const double d = std::hypot(x, 0.3);
+        return std::sqrt(d * d - 0.25) + calcOverTop(std::atan2(0.3, x) - std::acos(0.5 / d), 1.5, 0.1);
+    };
+    EXPECT_EQ(events[0].kind, Kind::SwitchedOff);
+    EXPECT_NEAR(events[0].time, 0.5, 1e-8);
+    EXPECT_NEAR(events[0].lengthBefore, calcOver(-1.5), 1e-7);
+    EXPECT_NEAR(events[0].lengthAfter, std::hypot(3, 0.2), 1e-7);
+    EXPECT_EQ(events[1].kind, Kind::SwitchedOn);
+    EXPECT_NEAR(events[1].time, 1, 1e-8);
+    EXPECT_NEAR(events[1].lengthBefore, std::hypot(2.5, 0.2), 1e-7);
+    EXPECT_NEAR(events[1].lengthAfter, calcOver(-1), 1e-7);
+    const State& state = stepper.getState();
+    scene.system.realize(state, Stage::Position);
+    EXPECT_EQ(scene.cable.calcStatus(state), PathStatus::Solved) << scene.cable.explainStatus(state);
+    EXPECT_TRUE(scene.cable.isTouched(state, cylinder));
+
+    // Without a study: a function of the pose.
+    State posed = scene.system.getDefaultState();
+    for (const auto& [x, isTouched] : {std::pair(-2.0, true), std::pair(-1.2, false), std::pair(-0.9, true)}) {
+        scene.slider.setOneQ(posed, 0, x);
+        scene.system.realize(posed, Stage::Position);
+        EXPECT_EQ(scene.cable.isTouched(posed, cylinder), isTouched);
+        EXPECT_EQ(scene.cable.isActive(posed, cylinder), isTouched);
+        EXPECT_EQ(scene.cable.getStatus(posed), PathStatus::Solved);
+        EXPECT_NEAR(scene.cable.getLength(posed), isTouched ? calcOver(x) : std::hypot(1.5 - x, 0.2), 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace tautline::testing

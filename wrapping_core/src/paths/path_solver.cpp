@@ -152,7 +152,8 @@ bool PathSolver::findKeptPath(const PathProblem& problem, const PathPose& pose, 
     return false;
 }
 
-/** Switches off the obstacles in which an end of their span lies: no string lies over them. The side on which one was
+/** Switches off the obstacles in which an end of their span lies, since no string lies over them, and those that the
+pose passes over. The side on which one was
 passed before, or the way through its hole, ends with that: an end may come out anywhere. */
 void PathSolver::switchOffEnclosing(const PosedProblem& scene, PathSolution& path) {
     for (ObstacleContact& contact : path.contacts) {
@@ -163,6 +164,11 @@ void PathSolver::switchOffEnclosing(const PosedProblem& scene, PathSolution& pat
         }
         contact.isSwitchedOff = false;
     }
+    for (int e = 0; e < scene.problem.getNumElements(); ++e)
+        if (!scene.isPoint(e) && !scene.pose.hasElement(e)) {
+            path.contacts[e] = ObstacleContact();
+            path.contacts[e].isSwitchedOff = true;
+        }
     scene.forEachSpanEnd([&](int point, int e) {
         if (scene.calcHeight(point, e) < kContactTolerance * scene.getSurface(e).getSize())
             path.contacts[e].isSwitchedOff = true;

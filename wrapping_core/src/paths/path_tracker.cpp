@@ -105,8 +105,13 @@ std::vector<PathEvent> listEvents(const PathProblem& problem, const PathSolution
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (problem.getElement(e).isPoint()) continue;
         if (after.contacts[e].hasLeftHole && !start.contacts[e].hasLeftHole) events.push_back({Kind::LeftHole, e});
-        if (before.contacts[e].isTouched != after.contacts[e].isTouched)
-            events.push_back({after.contacts[e].isTouched ? Kind::Touched : Kind::Lifted, e});
+        const bool wasOff = start.contacts[e].isSwitchedOff, isOff = after.contacts[e].isSwitchedOff;
+        const bool wasTouched = before.contacts[e].isTouched || (isOff && start.contacts[e].isTouched);
+        if (wasTouched == after.contacts[e].isTouched) continue;
+        if (wasTouched)
+            events.push_back({isOff ? Kind::SwitchedOff : Kind::Lifted, e});
+        else
+            events.push_back({wasOff ? Kind::SwitchedOn : Kind::Touched, e});
     }
     return events;
 }
@@ -210,7 +215,8 @@ PathStatus PathTracker::calcStatus(const PathProblem& problem, const TrackedPath
     const PathSolution& solution = path.solution;
     if (solution.status != PathStatus::Solved) return solution.status;
     for (int e = 0; e < problem.getNumElements(); ++e)
-        if (!problem.getElement(e).isPoint() && solution.contacts[e].isSwitchedOff) return PathStatus::EndInside;
+        if (!problem.getElement(e).isPoint() && path.pose.hasElement(e) && solution.contacts[e].isSwitchedOff)
+            return PathStatus::EndInside;
     if (hasLeftAnyHole(solution)) return PathStatus::NotMinimum;
     using Condition = PathVerification::Condition;
     switch (verifyPath(problem, path.pose, solution, kBetweenEvents).condition) {

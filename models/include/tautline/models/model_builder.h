@@ -16,6 +16,8 @@ subsystem must outlive it. Unknown names throw ModelError. */
 class BuiltModel {
 public:
     struct CoordinateSlot {
+        /** "/jointset/<joint>/<coordinate>": how files of states name it. */
+        std::string path;
         SimTK::MobilizedBodyIndex body;
         SimTK::MobilizerQIndex q;
         SimTK::MobilizerUIndex u;

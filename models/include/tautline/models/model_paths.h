@@ -29,6 +29,7 @@ public:
         Muscle muscle;
         std::vector<BoundWrap> wraps;
         PathStart start;
+        std::vector<std::string> coordinates;  ///< findCrossedCoordinates()
     };
     struct SpringSlot {
         std::string name;
@@ -38,6 +39,7 @@ public:
         ElasticStringForce spring;
         std::vector<BoundWrap> wraps;
         PathStart start;
+        std::vector<std::string> coordinates;  ///< findCrossedCoordinates()
     };
     /** Of a PathForce. */
     struct PathForceSlot {
@@ -48,6 +50,7 @@ public:
         CableForce force;
         std::vector<BoundWrap> wraps;
         PathStart start;
+        std::vector<std::string> coordinates;  ///< findCrossedCoordinates()
     };
     /** Of a muscle or any other force whose path is given by functions: nothing pulls along it. */
     struct FunctionPathSlot {
@@ -55,6 +58,7 @@ public:
         /** "/forceset/<name>". */
         std::string path;
         FunctionBasedPath function;
+        std::vector<std::string> coordinates;  ///< findCrossedCoordinates()
     };
     /** What all forces along cables have in common; valid as long as the system. */
     struct PathView {
@@ -65,6 +69,8 @@ public:
         /** In the order of the cable's obstacles. */
         const std::vector<BoundWrap>& wraps;
         const PathStart& start;
+        /** That can change its length: findCrossedCoordinates(). */
+        const std::vector<std::string>& coordinates;
     };
 
     /** Adds all cables and forces.

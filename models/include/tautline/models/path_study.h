@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "tautline/models/model_description.h"
+#include "tautline/models/wrap_binding.h"
+#include "tautline/paths/path_problem.h"
 #include "tautline/paths/path_solution.h"
 
 namespace tautline::models {
@@ -40,12 +42,12 @@ struct PathAnswer {
     std::vector<double> geometricArms, effectiveArms;
 
     bool followsHints() const { return deviation == RouteDeviation::Kind::None; }
-    /** Whether the path is a shortest one on the sides that quadrants demand; objects that a point has entered are
-    switched off as in OpenSim, and points of hints are where paths begin, no demand. */
-    bool isSound() const {
-        return (status == PathStatus::Solved || status == PathStatus::EndInside) &&
-               (followsHints() || deviation == RouteDeviation::Kind::Near);
-    }
+    /** False if it passes an obstacle on another side than its quadrant asks, or a ring outside its hole, where OpenSim
+    would not let it. An ellipsoid or a sphere that is clear of the path is on no side, as in OpenSim, and the point of
+    a hint is where a path begins, no demand. */
+    bool keepsSides = true;
+    /** Whether the path is a verified shortest one; objects that a point has entered are switched off as in OpenSim. */
+    bool isSound() const { return (status == PathStatus::Solved || status == PathStatus::EndInside) && keepsSides; }
 };
 
 /** A model in one pose. */
@@ -63,6 +65,14 @@ struct StudiedPath {
     std::string path;  ///< "/forceset/<name>"
     std::vector<std::string> obstacles;
     std::vector<std::string> coordinates;  ///< findCrossedCoordinates()
+    std::vector<BoundWrap> wraps;          ///< in the order of `obstacles`
+};
+
+/** A path as the core sees it, in the pose that was solved last; null for a path that is given by functions. */
+struct CorePath {
+    const PathProblem* problem = nullptr;
+    const PathPose* pose = nullptr;
+    const PathSolution* solution = nullptr;
 };
 
 /** Lengths, lengthening speeds, contacts and moment arms of a model's paths in poses that are given by coordinates,
@@ -88,6 +98,9 @@ public:
 
     /** @throws ModelError naming a coordinate that the model does not have, or whose value or speed is not finite */
     PoseAnswer solve(const ModelPose& pose);
+
+    /** For the core's functions; valid until the next pose is solved. @param path   as in getPaths(), after solve() */
+    CorePath getCorePath(std::size_t path) const;
 
 private:
     class Implementation;

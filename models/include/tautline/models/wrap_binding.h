@@ -11,8 +11,9 @@
 namespace tautline::models {
 
 /** A wrap object of a path, bound to one of its segments. A model file lets a path wrap anywhere between the points of
-a range, while an obstacle has its place in the order of the path. An object that the path would pass through on
-several segments, in one pose or another, is bound to each of them. */
+a range, while an obstacle has its place in the order of the path. An object without a quadrant that the path would pass
+through on several segments, in one pose or another, is bound to each of them; one with a quadrant to each segment on
+which it engages in some pose, but takes part on one at a time. */
 struct BoundWrap {
     /** Index into MusclePath::wraps. */
     std::size_t wrap = 0;
@@ -30,14 +31,15 @@ struct BoundWrap {
     StartHint hint_W;
     /** A geodesic that the file gives. */
     std::optional<WrapStart> start;
-    /** In how many of the sampled poses the path wraps here, and on segments to which the object is not bound. */
-    int numEngaged = 0, numElsewhere = 0;
+    /** Of a one-sided object that is bound to several segments: all of them. It takes part on one at a time, on which
+    OpenSim's rule decides pose by pose. */
+    std::vector<std::size_t> alternatives;
 };
 
 /** Binds the active wrap objects of paths, those of each path sorted by their place. An object is bound to the segment
 on which it is engaged in most of the poses sampled: the default and others over the coordinates' ranges, the same at
-each call; one that is never engaged, to the segment nearest to it. An object without a quadrant is bound to every
-other segment, too, that passes through it in a pose.
+each call; one that is never engaged, to the segment nearest to it. It is bound, too, to every
+other segment that passes through it in a pose, or, with a quadrant, on which it engages in one.
 
 @param state   of the system in which `model` was built; realized to Model */
 std::vector<std::vector<BoundWrap>> bindWraps(const ModelDescription& description,

@@ -34,9 +34,13 @@ Split: it is no longer one arc (its pressure turns inside, or a segment beside i
 as it is and makes the path NotMinimum.
 
 LeftHole: the cable has left a ring (an obstacle with a hole) through which it was threaded: the step was too long for
-the ring to hold it. */
+the ring to hold it.
+
+SwitchedOff: an obstacle that the cable touched no longer takes part, since a point beside it has come to lie inside it
+or its condition has become false. SwitchedOn: one that had been switched off takes part and is touched again. The
+length jumps at both. */
 struct ContactEvent {
-    enum class Kind { Made, Lost, Split, LeftHole, Slipped };
+    enum class Kind { Made, Lost, Split, LeftHole, Slipped, SwitchedOff, SwitchedOn };
     SimTK::Real time;  ///< [s]
     CableIndex cable;
     CableElementIndex obstacle;
@@ -111,6 +115,10 @@ public:
     /** As above. @param hint   a side, a winding, how often through a hole: see StartHint */
     CableElementIndex addObstacle(const SimTK::MobilizedBody& body, const SimTK::Transform& X_BS,
                                   std::shared_ptr<const Surface> surface, const StartHint& hint, std::string name = "");
+
+    /** Has an obstacle take part only while a condition is true, else it is passed over, as a conditional point is.
+    Once per obstacle. @param isActive   as for addConditionalPoint() */
+    void setCondition(CableElementIndex obstacle, std::function<bool(const SimTK::State&)> isActive);
 
     /** How the path is laid where it is found anew; invalidates the topology. */
     void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
@@ -197,7 +205,7 @@ public:
     /** Poses of the elements' frames in ground: with getPathProblem() and getSolution() what the core's functions take,
     such as PathSensitivity. */
     const PathPose& getPathPose(const SimTK::State& state) const;
-    /** False for a conditional point that is passed over. */
+    /** False for a conditional point or obstacle that is passed over. */
     bool isActive(const SimTK::State& state, CableElementIndex element) const;
     /** Where an element's origin is on its body, moving or not [m]. */
     SimTK::Vec3 calcStation(const SimTK::State& state, CableElementIndex element) const;

@@ -12,9 +12,9 @@ enum class PathStatus {
     Solved,      ///< max |eps| <= tolerance and all conditions of PathVerification hold
     NotMinimum,  ///< max |eps| <= tolerance, but the path is not a local minimum (pressure, tangent, conjugate point),
                  ///< or not one that a string can have come to: it has left a ring that it went through
-    LeftDomain,    ///< a contact lies outside its surface's domain
-    EndInside,     ///< a fixed point lies deeper than 1e-7 sizes below the surface of an obstacle of its strand (nearer
-                   ///< ones count as lying on it); that obstacle is switched off
+    LeftDomain,  ///< a contact lies outside its surface's domain
+    EndInside,   ///< a fixed point lies deeper than 1e-7 sizes below the surface of an obstacle of its strand (nearer
+                 ///< ones count as lying on it); that obstacle is switched off
     NotConverged,  ///< max |eps| > tolerance after the allowed iterations; the best path met is returned
 };
 
@@ -35,7 +35,7 @@ struct HolePassage {
 /** What one obstacle does in a solved path. */
 struct ObstacleContact {
     bool isTouched = false;
-    bool isSwitchedOff = false;  ///< an end of its strand is inside it
+    bool isSwitchedOff = false;  ///< an end of its strand is inside it, or the pose passes it over
     bool yields = false;         ///< it overlaps another obstacle where the string lies: the path passes through it
     GeodesicStart start;         ///< in S; of the arc, or of the last arc while lifted
     Geodesic geodesic;           ///< in S; only while touched

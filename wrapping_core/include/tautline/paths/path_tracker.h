@@ -28,10 +28,12 @@ struct PathMotion {
 /** What became of one obstacle at an event. */
 struct PathEvent {
     enum class Kind {
-        Touched,   ///< the path has come to touch the obstacle
-        Lifted,    ///< the path has left it
-        Slipped,   ///< the string had no stable path left near this obstacle, and has jumped to another one
-        LeftHole,  ///< no path through the obstacle's hole was found again: the motion was too fast to follow
+        Touched,      ///< the path has come to touch the obstacle
+        Lifted,       ///< the path has left it
+        Slipped,      ///< the string had no stable path left near this obstacle, and has jumped to another one
+        SwitchedOff,  ///< a touched obstacle no longer takes part: a point beside it is inside it, or it is passed over
+        SwitchedOn,   ///< one that had been switched off is touched again
+        LeftHole,     ///< no path through the obstacle's hole was found again: the motion was too fast to follow
     };
     Kind kind;
     int element;
