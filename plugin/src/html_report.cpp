@@ -289,8 +289,7 @@ std::string ReportRecorder::describeTable(const SimulationResult& result) const 
                   ",\"tension\":" + toNumber(m_paths[i].force.getTension(result.finalState)) +
                   ",\"made\":" + std::to_string(summary.contactsMade) +
                   ",\"lost\":" + std::to_string(summary.contactsLost) + ",\"slips\":" + std::to_string(summary.slips) +
-                  ",\"degraded\":" + std::to_string(summary.statistics.numDegradedSteps) +
-                  ",\"words\":" + quote(words) + "}");
+                  ",\"degraded\":" + std::to_string(summary.degradedSteps) + ",\"words\":" + quote(words) + "}");
     }
     return table.get();
 }
@@ -303,7 +302,7 @@ std::string ReportRecorder::describeEvents(const SimulationResult& result) const
     while (std::getline(lines, line)) {
         std::istringstream cells(line);
         std::string time, path, obstacle, kind;
-        std::getline(std::getline(std::getline(std::getline(cells, time, ','), path, ','), obstacle, ','), kind);
+        std::getline(std::getline(std::getline(std::getline(cells, time, ','), path, ','), obstacle, ','), kind, ',');
         events.add("{\"t\":" + time + ",\"path\":" + quote(path.substr(path.rfind('/') + 1)) +
                    ",\"obstacle\":" + quote(obstacle) + ",\"kind\":" + quote(kind) + "}");
     }

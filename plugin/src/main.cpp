@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "check_command.h"
 #include "run_command.h"
 #include "solve_command.h"
 #include "tautline/models/extensions.h"
@@ -24,11 +25,17 @@ int main(int argc, char** argv) {
     CLI::App* solveApp =
         app.add_subcommand("solve", "lengths, contacts and moment arms of a model's paths along a motion or in a pose");
     solve.declare(*solveApp);
+    tautline::CheckCommand check;
+    CLI::App* checkApp = app.add_subcommand(
+        "check", "what is in a model file, what is supported, where its paths wrap, what differs from OpenSim");
+    check.declare(*checkApp);
     CLI11_PARSE(app, argc, argv);
     try {
         for (const std::filesystem::path& extension : extensions) tautline::models::loadExtension(extension);
         const bool isTerminal = isatty(STDOUT_FILENO) == 1;
-        return solveApp->parsed() ? solve.run(std::cout, isTerminal) : run.run(std::cout, isTerminal);
+        if (solveApp->parsed()) return solve.run(std::cout, isTerminal);
+        if (checkApp->parsed()) return check.run(std::cout, isTerminal);
+        return run.run(std::cout, isTerminal);
     } catch (const std::exception& error) {
         std::cout << std::flush;
         std::cerr << "tautline: " << error.what() << "\n";

@@ -71,17 +71,12 @@ TEST(Readme, CommandsOfTheProgramWork) {
         for (std::string line; std::getline(lines, line);) {
             const std::string program = "build/bin/tautline";
             if (line.rfind(program, 0) != 0) continue;
-            std::string output;
-            const std::string arguments = line.substr(program.size());
-            const std::string command =
-                "cd " + kRoot + " && " TAUTLINE_PROGRAM + arguments +
-                (line.find("--out") != std::string::npos ? " --out " + ::testing::TempDir() + "tautline_readme" : "");
-            // A second --out would be refused: put ours in place of the one shown.
-            const std::size_t shown = command.find(" --out results");
-            const std::string runnable =
-                shown == std::string::npos
-                    ? command
-                    : command.substr(0, shown) + command.substr(command.find(" --out ", shown + 1));
+            std::string output, arguments = line.substr(program.size());
+            // Results of one command may be what another one reads.
+            const std::string shown = " results/", ours = " " + ::testing::TempDir() + "tautline_readme/";
+            for (std::size_t at = 0; (at = arguments.find(shown, at)) != std::string::npos; at += ours.size())
+                arguments.replace(at, shown.size(), ours);
+            const std::string runnable = "cd " + kRoot + " && " TAUTLINE_PROGRAM + arguments;
             EXPECT_EQ(runProgram(runnable, output), 0) << runnable << "\n" << output;
         }
     }
