@@ -8,6 +8,7 @@
 
 #include "model_test_support.h"
 #include "support/shared_data.h"
+#include "tautline/models/model_system.h"
 #include "tautline/models/path_points.h"
 #include "tautline/muscles/thelen_2003.h"
 
@@ -166,6 +167,70 @@ TEST(DataArm26, BicepsShortHasTheReferenceLength) {
         EXPECT_EQ(compared, 15);
         EXPECT_LT(worst, 1e-14);
     }
+}
+
+/** The long head of the triceps over the cylinder at the shoulder, which is changed as a test says. */
+struct Triceps {
+    Triceps(const std::filesystem::path& shared, double length, bool isActive)
+        : model(describe(shared, length, isActive)), state(model.makeDefaultState()) {}
+
+    static ModelDescription describe(const std::filesystem::path& shared, double length, bool isActive) {
+        ModelDescription description = readShared(shared, "arm26.osim");
+        for (WrapObject& object : description.wrapObjects) {
+            if (object.name != "TRIlongglen") continue;
+            object.active = isActive;
+            std::get<CylinderShape>(object.shape).length = length;
+        }
+        return description;
+    }
+
+    void setShoulder(double angle) {
+        model.getModel().setCoordinate(state, "r_shoulder_elev", angle);
+        model.getSystem().realize(state, SimTK::Stage::Position);
+    }
+    const Cable& getCable() const { return model.getMuscles().at(0).cable; }
+    double getLength() const { return getCable().getLength(state); }
+    bool touches(const std::string& obstacle) const {
+        return getCable().isTouched(state, getCable().findElement(obstacle));
+    }
+    /** Along the axis of the cylinder, of both ends of the contact. */
+    std::pair<double, double> calcContactZ() const {
+        const CableElementIndex cylinder = getCable().findElement("TRIlongglen");
+        SimTK::Vec3 P_G, Q_G;
+        EXPECT_TRUE(getCable().getContactPoints(state, cylinder, P_G, Q_G));
+        const Pose& X_GE = getCable().getPathPose(state).X_GE[static_cast<std::size_t>(cylinder)];
+        return {X_GE.shiftBack(Vec3(P_G[0], P_G[1], P_G[2])).z(), X_GE.shiftBack(Vec3(Q_G[0], Q_G[1], Q_G[2])).z()};
+    }
+
+    ModelSystem model;
+    SimTK::State state;
+};
+
+/** As in OpenSim: the cylinder is passed by where both ends of the contact would lie beyond its ends. */
+TEST(DataArm26, TheLongHeadOfTheTricepsPassesTheEndsOfItsCylinderBy) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    const ModelDescription description = readShared(shared, "arm26.osim");
+    const WrapObject& cylinder = *findWrapObject(description, "TRIlongglen");
+    const double halfLength = 0.5 * std::get<CylinderShape>(cylinder.shape).length;
+    Triceps finite(shared, 2 * halfLength, true), endless(shared, SimTK::Infinity, true),
+        without(shared, 2 * halfLength, false);
+    int numBeyond = 0, numWithin = 0;
+    double largest = 0;
+    for (double angle = -1.57; angle < 3.14; angle += 0.02) {
+        SCOPED_TRACE(angle);
+        for (Triceps* triceps : {&finite, &endless, &without}) triceps->setShoulder(angle);
+        if (!endless.touches("TRIlongglen") || endless.touches("TRIlonghh")) continue;
+        const auto [zP, zQ] = endless.calcContactZ();
+        const bool isBeyond = std::abs(zP) > halfLength && std::abs(zQ) > halfLength;
+        ++(isBeyond ? numBeyond : numWithin);
+        EXPECT_NEAR(finite.getLength(), isBeyond ? without.getLength() : endless.getLength(), 1e-10);
+        if (isBeyond) largest = std::max(largest, endless.getLength() - without.getLength());
+    }
+    std::cout << "beyond the ends in " << numBeyond << " poses, within in " << numWithin << ", longer by up to "
+              << largest << " m if it had no ends\n";
+    EXPECT_GT(numBeyond, 10);
+    EXPECT_GT(numWithin, 10);
+    EXPECT_GT(largest, 1e-3);
 }
 
 }  // namespace
