@@ -42,7 +42,7 @@ FrameTimes timeFrames(models::ModelSystem& model, const Motion& motion) {
         model.getModel().applyCouplers(state);
         model.getSystem().realize(state, SimTK::Stage::Time);
         const Clock::time_point begin = Clock::now();
-        model.getModel().getMatter().realizeSubsystemPosition(state);
+        model.getModel().getMatter().getSubsystemGuts().realizeSubsystemPosition(state);
         const Clock::time_point posed = Clock::now();
         model.getSystem().realize(state, SimTK::Stage::Position);
         for (const auto& path : model.getPaths()) sum += path.cable.getLength(state);
