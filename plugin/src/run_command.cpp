@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "earlier_run.h"
 #include "html_report.h"
 #include "interruption.h"
 #include "model_report.h"
@@ -71,6 +72,8 @@ void RunCommand::declare(CLI::App& app) {
     app.add_option("--out", outFolder, "folder of the results, made if missing")->capture_default_str();
     app.add_option("--states", statesFile,
                    "states file (.sto): begin with its row at the time of --from, or with its first");
+    app.add_flag("--resume", resumes,
+                 "go on from where an interrupted run into the folder of --out has ended; other options as then");
     app.add_option("--pose", pose,
                    "coordinate at the start, NAME=VALUE in rad or m (30deg: degrees), over the states file; repeatable")
         ->take_all();
@@ -112,6 +115,10 @@ models::ModelDescription RunCommand::readModel() const {
 InitialState RunCommand::makeInitialState(const models::ModelDescription& description,
                                           std::vector<std::string>& notes) const {
     InitialState initial;
+    if (resumes) {
+        const std::filesystem::path file = outFolder / "states.sto";
+        return readStates(file, description, readStorage(file).rows.back()[0], notes);
+    }
     if (!statesFile.empty()) initial = readStates(statesFile, description, startTime, notes);
     if (startTime) initial.time = *startTime;
     if (!(std::abs(initial.time) <= kLatestStart))
@@ -127,9 +134,12 @@ InitialState RunCommand::makeInitialState(const models::ModelDescription& descri
     return initial;
 }
 
-SimulationOptions RunCommand::makeOptions(double start) const {
+SimulationOptions RunCommand::makeOptions(double start, const std::optional<EarlierRun>& earlier) const {
     SimulationOptions options = simulation;
-    if (!endTime) return options;
+    if (!endTime) {
+        if (earlier) options.duration -= start - earlier->getStart();
+        return options;
+    }
     if (!(*endTime > start))
         throw std::runtime_error("--to is " + toText(*endTime) + ", but must be after the start at " + toText(start) +
                                  " s");
@@ -148,6 +158,14 @@ void RunCommand::addExternalLoads(const models::ModelDescription& description, m
                                        [](const models::ExternalForce& force) { return force.appliesForce; });
     out << "external loads: " << applied << " of " << externalLoadsFile.string() << ", from " << table.string() << ", "
         << toText(data.rows.front()[0]) << " to " << toText(data.rows.back()[0]) << " s\n";
+}
+
+bool RunCommand::isDone(const EarlierRun& earlier, std::ostream& out) const {
+    const double end = endTime ? *endTime : earlier.getStart() + simulation.duration;
+    if (earlier.getEnd() < end - 1e-12 * std::abs(end)) return false;
+    out << "nothing to resume: " << (outFolder / "states.sto").string() << " ends at " << toText(earlier.getEnd())
+        << " s\n";
+    return true;
 }
 
 std::vector<std::string> RunCommand::writeResults(const SimulationResult& result) const {
@@ -170,8 +188,11 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
     simulation.validate();
     const models::ModelDescription description = readModel();
     std::vector<std::string> notes;
+    std::optional<EarlierRun> earlier;
+    if (resumes) earlier = readEarlierRun(outFolder);
+    if (earlier && isDone(*earlier, out)) return 0;
     const InitialState initial = makeInitialState(description, notes);
-    const SimulationOptions options = makeOptions(initial.time);
+    const SimulationOptions options = makeOptions(initial.time, earlier);
     options.validate();
     models::ModelSystem model(description);
     std::vector<std::string> names;
@@ -195,13 +216,14 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
 
     ProgressBar bar(out, isTerminal);
     const Interruption interruption;
-    const SimulationResult result = simulate(
+    SimulationResult result = simulate(
         model, muscleExcitations, options, [&bar](double share) { bar.show(share); },
         [&page](const SimTK::State& state) {
             if (page) page->recordFrame(state);
         },
         initial, [&interruption] { return interruption.isRequested(); });
     bar.clear();
+    if (earlier) earlier->prependTo(result);
     const std::vector<std::string> files = writeResults(result);
     printRunTable(model, result, out);
     out << "results: ";

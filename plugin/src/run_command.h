@@ -11,6 +11,7 @@
 
 namespace tautline {
 
+struct EarlierRun;
 struct SimulationResult;
 
 /** `tautline run`: simulates a model file and writes states.sto, paths.sto, muscles.sto if there are any,
@@ -28,6 +29,7 @@ struct RunCommand {
     std::vector<double> gravity;               ///< in ground [m/s^2]; empty: the model's
     bool allowsDegraded = false;
     bool drawsCurves = false;
+    bool resumes = false;  ///< goes on from where an interrupted run into the same folder has ended
     /** The page to look at; empty: none. */
     std::filesystem::path report;
 
@@ -43,10 +45,12 @@ struct RunCommand {
 private:
     models::ModelDescription readModel() const;
     InitialState makeInitialState(const models::ModelDescription& description, std::vector<std::string>& notes) const;
-    /** With the end that was given in place of a duration. */
-    SimulationOptions makeOptions(double start) const;
+    /** With the end that was given in place of a duration. @param earlier   that the run goes on from, if it does */
+    SimulationOptions makeOptions(double start, const std::optional<EarlierRun>& earlier) const;
     void addExternalLoads(const models::ModelDescription& description, models::ModelSystem& model,
                           std::ostream& out) const;
+    /** Says that nothing is left to do, if an earlier run has come to the end. */
+    bool isDone(const EarlierRun& earlier, std::ostream& out) const;
     /** Writes all result files. @return their names */
     std::vector<std::string> writeResults(const SimulationResult& result) const;
 };

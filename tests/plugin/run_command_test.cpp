@@ -112,6 +112,33 @@ TEST(RunCommand, IsInterruptedWithEverythingWritten) {
         EXPECT_NE(entry.path().extension(), ".part") << entry.path();
 }
 
+TEST(RunCommand, ResumesAnInterruptedRun) {
+    const std::filesystem::path whole = makeFolder("run_unbroken"), parts = makeFolder("run_resumed");
+    const std::string options = " --accuracy 1e-10 --excitation 'biceps*=0.3' --interval 0.02 --out ";
+    ASSERT_EQ(runTautline("run " + kElbow + " --duration 0.2" + options + whole.string()).exitCode, 0);
+    ASSERT_EQ(runTautline("run " + kElbow + " --duration 0.1" + options + parts.string()).exitCode, 0);
+    const std::string resume = "run " + kElbow + " --duration 0.2 --resume" + options + parts.string();
+    const Outcome resumed = runTautline(resume);
+    ASSERT_EQ(resumed.exitCode, 0) << resumed.text;
+    for (const char* file : {"states.sto", "paths.sto"}) {
+        const StorageTable a = readStorage(whole / file), b = readStorage(parts / file);
+        ASSERT_EQ(a.labels, b.labels);
+        ASSERT_EQ(a.rows.size(), b.rows.size()) << file;
+        for (std::size_t i = 0; i < a.rows.size(); ++i)
+            for (std::size_t j = 0; j < a.labels.size(); ++j)
+                EXPECT_NEAR(a.rows[i][j], b.rows[i][j], 1e-6 * (1 + std::abs(a.rows[i][j])))
+                    << file << " " << a.labels[j];
+    }
+    for (const char* file : {"muscles.sto", "clearances.sto"})
+        EXPECT_EQ(readStorage(whole / file).rows.size(), readStorage(parts / file).rows.size()) << file;
+    const Outcome again = runTautline(resume);
+    EXPECT_EQ(again.exitCode, 0);
+    EXPECT_TRUE(again.has("nothing to resume: ")) << again.text;
+    EXPECT_EQ(runTautline("run " + kElbow + " --resume --out " + makeFolder("run_nothing").string()).exitCode, 1);
+    const Outcome other = runTautline("run " + kPendulum + " --duration 0.3 --resume --out " + parts.string());
+    EXPECT_EQ(other.exitCode, 1) << other.text;
+}
+
 TEST(RunCommand, WritesMomentArmsOfCrossedCoordinatesUnlessAllAreAskedFor) {
     const StorageTable few = runAndRead(kElbow + " --duration 0.01", "run_few", "paths.sto"),
                        all = runAndRead(kElbow + " --duration 0.01 --all", "run_all", "paths.sto");
