@@ -217,10 +217,10 @@ def test_control_c_stops_a_long_call():
         time.sleep(0.001)
         return p @ p - 0.0025
 
-    problem = make_problem(tautline.ImplicitSurface("slow", 0.05, value))
+    problem, poses = make_problem(tautline.ImplicitSurface("slow", 0.05, value)), random_poses(5000)
     timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     start = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
-        problem.solve(random_poses(100000))
-    assert time.monotonic() - start < 5
+        problem.solve(poses)
+    assert 0.25 < time.monotonic() - start < 5
