@@ -221,8 +221,21 @@ py::tuple makeTable(const StorageTable& table) {
     return py::make_tuple(table.labels, rows);
 }
 
+/** A function of Python's that keeps what it raises: an integrator would only take smaller steps. */
+Excitation makeExcitation(const py::object& function, const std::shared_ptr<std::exception_ptr>& raised) {
+    return [function = function.cast<Excitation>(), raised](double time) {
+        try {
+            return function(time);
+        } catch (...) {
+            *raised = std::current_exception();
+            throw;
+        }
+    };
+}
+
 /** Numbers and functions of time, of all muscles that are not named the program's default. */
-std::map<std::string, Excitation> makeAll(const Model& model, const std::map<std::string, py::object>& given) {
+std::map<std::string, Excitation> makeAll(const Model& model, const std::map<std::string, py::object>& given,
+                                          const std::shared_ptr<std::exception_ptr>& raised) {
     std::map<std::string, Excitation> excitations;
     for (const std::string& name : model.getMuscles()) excitations[name] = [](double) { return kDefaultExcitation; };
     for (const models::PrescribedControl& control : model.description->controls)
@@ -233,7 +246,7 @@ std::map<std::string, Excitation> makeAll(const Model& model, const std::map<std
     for (const auto& [name, value] : given) {
         require(excitations.count(name) > 0, "the model has no muscle '", name, "'");
         if (PyCallable_Check(value.ptr())) {
-            excitations[name] = value.cast<Excitation>();
+            excitations[name] = makeExcitation(value, raised);
             continue;
         }
         const auto constant = value.cast<double>();
@@ -243,20 +256,40 @@ std::map<std::string, Excitation> makeAll(const Model& model, const std::map<std
     return excitations;
 }
 
+/** The model's own, as the program begins with it. */
+InitialState makeInitialState(const ModelDescription& description) {
+    InitialState initial;
+    for (const models::Joint& joint : description.joints)
+        for (const models::Coordinate& coordinate : joint.coordinates)
+            if (coordinate.locked) initial.speeds[coordinate.name] = 0.0;
+    return initial;
+}
+
 py::dict simulateModel(const Model& model, const std::map<std::string, py::object>& given, double duration,
                        double interval, double accuracy) {
-    const SimulationOptions options{duration, interval, accuracy};
+    SimulationOptions options;
+    options.duration = duration;
+    options.interval = interval;
+    options.accuracy = accuracy;
     options.validate();
-    const std::map<std::string, Excitation> excitations = makeAll(model, given);
+    const auto raised = std::make_shared<std::exception_ptr>();
+    const std::map<std::string, Excitation> excitations = makeAll(model, given, raised);
+    const auto isInterrupted = [&raised] {
+        const py::gil_scoped_acquire python;
+        return *raised || PyErr_CheckSignals() != 0;
+    };
     SimulationResult result;
     {
         const py::gil_scoped_release released;
         models::ModelSystem system(*model.description);
-        result = simulate(system, excitations, options, [](double) {
-            const py::gil_scoped_acquire python;
-            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        });
+        result = simulate(
+            system, excitations, options, [](double) {}, nullptr, makeInitialState(*model.description), isInterrupted);
     }
+    if (*raised) std::rethrow_exception(*raised);
+    if (PyErr_Occurred()) throw py::error_already_set();
+    if (result.ending.kind == SimulationEnding::Kind::Stuck)
+        throw std::runtime_error("the simulation cannot go on at " + std::to_string(result.ending.time) +
+                                 " s: " + result.ending.reason);
     py::dict tables;
     tables["states"] = makeTable(result.states);
     tables["paths"] = makeTable(result.paths);

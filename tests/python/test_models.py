@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Models from Python give what the program gives."""
 import os
+import signal
 import subprocess
+import threading
 
 import numpy as np
 import pytest
@@ -122,6 +124,22 @@ def test_simulates_as_the_program_does(tmp_path):
             assert tables[name][0] == labels
             np.testing.assert_array_equal(tables[name][1], rows)
         assert tables["events"] == (tmp_path / "events.csv").read_text()
+
+
+def test_errors_of_excitations_and_control_c_end_a_simulation():
+    model = tautline.read_osim(ELBOW)
+
+    def excitation(time):
+        if time > 0.05:
+            raise ZeroDivisionError("in my excitation")
+        return 0.1
+
+    with pytest.raises(ZeroDivisionError, match="in my excitation"):
+        tautline.simulate(model, excitations={model.muscles[0]: excitation})
+    timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        tautline.simulate(model, duration=1000, interval=1000)
 
 
 def test_answers_do_not_depend_on_threads():
