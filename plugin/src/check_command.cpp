@@ -30,7 +30,8 @@ void CheckCommand::declare(CLI::App& app) {
     app.option_defaults()->take_last();  // so that what a script gives can be overridden
     app.add_option("MODEL", modelFile, "model file (.osim)")->required();
     app.add_option("--ignore", ignored, "name or type of an element to leave out though it is not known; repeatable")
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_flag("--json", printsJson, "print all of it as JSON");
 }
 

@@ -64,7 +64,8 @@ void RunCommand::declare(CLI::App& app) {
     app.option_defaults()->take_last();  // so that what a script gives can be overridden
     app.add_option("MODEL", modelFile, "model file (.osim)")->required();
     app.add_option("--ignore", ignored, "name or type of an element to leave out though it is not known; repeatable")
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     CLI::Option* duration =
         app.add_option("--duration", simulation.duration, "time to simulate [s]")->capture_default_str();
     app.add_option("--from", startTime, "time at which to begin [s]; default: 0, or the first row of --states");
@@ -76,16 +77,22 @@ void RunCommand::declare(CLI::App& app) {
                  "go on from where an interrupted run into the folder of --out has ended; other options as then");
     app.add_option("--pose", pose,
                    "coordinate at the start, NAME=VALUE in rad or m (30deg: degrees), over the states file; repeatable")
-        ->take_all();
-    app.add_option("--speed", speeds, "its speed at the start, NAME=VALUE in rad/s or m/s; repeatable")->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
+    app.add_option("--speed", speeds, "its speed at the start, NAME=VALUE in rad/s or m/s; repeatable")
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--lock", locked, "coordinates that stay where they begin, by name or pattern; repeatable")
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--gravity", gravity, "gravity in ground, three numbers [m/s^2], in place of the model's")
-        ->expected(3);
+        ->expected(3)
+        ->allow_extra_args(false);
     app.add_option("--excitation", excitations.assignments,
                    "constant excitation, NAME=VALUE in [0, 1], of all muscles that match NAME; repeatable; names win "
                    "over patterns, the last pattern over those before; 0.05 for all others")
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--excitations", excitations.file,
                    "controls file (.sto) with a column of excitations per muscle; its other columns are not used");
     app.add_option("--external-loads", externalLoadsFile,

@@ -47,11 +47,15 @@ void SolveCommand::declare(CLI::App& app) {
     app.add_option("--motion", motionFile, "motion or states file (.mot, .sto): solve in each of its frames");
     app.add_option("--pose", pose,
                    "value of a coordinate, NAME=VALUE in rad or m (30deg: degrees), over the motion's; repeatable")
-        ->take_all();
-    app.add_option("--muscles", patterns, "only paths whose names match, such as 'rect_fem*'; repeatable")->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
+    app.add_option("--muscles", patterns, "only paths whose names match, such as 'rect_fem*'; repeatable")
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--ignore", ignored,
                    "name or type of an element, or pattern of columns, to leave out though it is not known; repeatable")
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--out", outFolder, "folder of the results, made if missing")->capture_default_str();
     app.add_flag("--allow-degraded", allowsDegraded, "exit with 0 even if some paths are no verified shortest ones");
 }

@@ -27,6 +27,22 @@ TEST(RunCommand, BeginsWithThePoseAndSpeedThatAreGiven) {
     EXPECT_NEAR(states.rows[0][findColumn(states, "/jointset/shoulder/shoulder_flexion/speed")], -0.5, 1e-12);
 }
 
+// 2026-11-27: options that may be repeated took the model's name for one more of their values.
+TEST(RunCommand, TakesOptionsBeforeTheModelToo) {
+    for (const char* options : {"--pose elbow_flexion=0.4", "--ignore nothing", "--lock 'shoulder*'",
+                                "--excitation 'biceps*=0.1'", "--speed elbow_flexion=0.1", "--gravity 0 -9.81 0"})
+        EXPECT_EQ(runTautline(std::string("run ") + options + " " + kElbow + " --duration 0.01 --out " +
+                              makeFolder("run_before").string())
+                      .exitCode,
+                  0)
+            << options;
+    EXPECT_EQ(runTautline("solve --muscles 'biceps*' --pose elbow_flexion=0.4 " + kElbow + " --out " +
+                          makeFolder("solve_before").string())
+                  .exitCode,
+              0);
+    EXPECT_EQ(runTautline("check --ignore nothing " + kElbow).exitCode, 0);
+}
+
 TEST(RunCommand, RunsFromOneTimeToAnother) {
     const StorageTable states = runAndRead(kElbow + " --from 2 --to 2.05 --interval 0.02", "run_times");
     ASSERT_EQ(states.rows.size(), 4u);
