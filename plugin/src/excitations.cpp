@@ -57,6 +57,9 @@ std::size_t clipColumn(StorageTable& table, std::size_t column) {
 
 void readFile(const std::filesystem::path& file, const std::vector<std::string>& muscles,
               std::map<std::string, Excitation>& excitations, std::vector<std::string>& notes) {
+    if (file.extension() == ".xml")
+        throw std::runtime_error(file.string() +
+                                 ": control sets (.xml) are not read; give the controls as a storage file (.sto)");
     StorageTable table = readStorage(file);
     std::vector<std::string> unused, clipped;
     for (std::size_t column = 1; column < table.labels.size(); ++column) {

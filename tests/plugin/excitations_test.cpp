@@ -89,6 +89,7 @@ TEST(Excitations, BadOnesAreRefusedByName) {
     expectRefused({{"biceps=nan"}, {}}, "an excitation lies in [0, 1]");
     expectRefused({{"soleus=0.1"}, {}}, "no muscle 'soleus'; it has biceps, triceps");
     expectRefused({{"biceps=0.1", "biceps=0.2"}, {}}, "given twice");
+    expectRefused({{}, "controls.xml"}, "controls.xml: control sets (.xml) are not read");
     expectRefused({{"sol*=0.1"}, {}}, "no muscle 'sol*'; it has biceps, triceps");
     expectRefused({{}, makeFile("time soleus\n0 0.1\n")}, "no column is a muscle of the model; it has biceps, triceps");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The tautline program as a user runs it. */
+#include <Simbody.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,45 +11,23 @@
 #include <utility>
 #include <vector>
 
-#include <Simbody.h>
-
-#include "storage_file.h"
-#include "support/run_program.h"
+#include "program_support.h"
 #include "support/shared_data.h"
 
 namespace tautline {
 namespace {
 
-struct Outcome {
-    int exitCode = -1;
-    std::string text;  ///< standard output and error
-};
-
-Outcome runProgram(const std::string& arguments) {
-    Outcome outcome;
-    outcome.exitCode = testing::runProgram(TAUTLINE_PROGRAM " " + arguments, outcome.text);
-    return outcome;
-}
-
-std::string readAll(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
-std::filesystem::path makeFolder(const std::string& name) {
-    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / ("tautline_" + name);
-    std::filesystem::remove_all(folder);
-    return folder;
-}
+using testing::makeFolder;
+using testing::Outcome;
+using testing::readAll;
+using testing::runTautline;
 
 const std::string kElbow = TAUTLINE_SOURCE_DIR "/models/elbow.osim";
 
 TEST(Program, AnswersHelpAndVersion) {
-    EXPECT_EQ(runProgram("--help").exitCode, 0);
-    EXPECT_NE(runProgram("run --help").text.find("--duration"), std::string::npos);
-    const Outcome version = runProgram("--version");
+    EXPECT_EQ(runTautline("--help").exitCode, 0);
+    EXPECT_NE(runTautline("run --help").text.find("--duration"), std::string::npos);
+    const Outcome version = runTautline("--version");
     EXPECT_EQ(version.exitCode, 0);
     EXPECT_EQ(version.text.substr(0, 9), "tautline ");
 }
@@ -56,7 +35,7 @@ TEST(Program, AnswersHelpAndVersion) {
 TEST(Program, RefusesAWrongCommandOrOptionWithANonZeroExit) {
     for (const char* arguments :
          {"", "jump", "run", "run --durration 1 x.osim", "run x.osim --duration -1", "run x.osim --duration soon"}) {
-        const Outcome outcome = runProgram(arguments);
+        const Outcome outcome = runTautline(arguments);
         EXPECT_NE(outcome.exitCode, 0) << arguments;
         EXPECT_FALSE(outcome.text.empty()) << arguments;
     }
@@ -79,7 +58,7 @@ TEST(Program, RefusesNumbersThatAreNoneOrOutOfRangeByNameAndLimit) {
         {"--interval 0", "--interval is 0, but must be above 0 and finite"},
         {"--interval inf", "--interval is inf, but must be above 0 and finite"}};
     for (const auto& [option, message] : cases) {
-        const Outcome outcome = runProgram("run " + kElbow + " " + option);
+        const Outcome outcome = runTautline("run " + kElbow + " " + option);
         EXPECT_EQ(outcome.exitCode, 1) << option;
         EXPECT_NE(outcome.text.find(message), std::string::npos) << option << ": " << outcome.text;
         EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
@@ -87,7 +66,7 @@ TEST(Program, RefusesNumbersThatAreNoneOrOutOfRangeByNameAndLimit) {
 }
 
 TEST(Program, NamesAMissingFileInOneLine) {
-    const Outcome outcome = runProgram("run no_such_model.osim");
+    const Outcome outcome = runTautline("run no_such_model.osim");
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_NE(outcome.text.find("no_such_model.osim"), std::string::npos);
     EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
@@ -95,7 +74,7 @@ TEST(Program, NamesAMissingFileInOneLine) {
 
 TEST(Program, BadInputLeavesNoResults) {
     const std::filesystem::path folder = makeFolder("refused");
-    const Outcome outcome = runProgram("run " + kElbow + " --excitation soleus=1 --out " + folder.string());
+    const Outcome outcome = runTautline("run " + kElbow + " --excitation soleus=1 --out " + folder.string());
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_FALSE(std::filesystem::exists(folder));
 }
@@ -103,11 +82,11 @@ TEST(Program, BadInputLeavesNoResults) {
 TEST(Program, LeavesOutWhatItIsToldToIgnoreAndSaysWhatThatChanges) {
     const std::string file = TAUTLINE_SOURCE_DIR "/models/rejected/unknown_force.osim";
     const std::string options = " --duration 0.01 --out " + makeFolder("ignored").string();
-    const Outcome refused = runProgram("run " + file + options);
+    const Outcome refused = runTautline("run " + file + options);
     EXPECT_EQ(refused.exitCode, 1);
     EXPECT_NE(refused.text.find("unknown force ElasticFoundationForce 'floor'"), std::string::npos) << refused.text;
     for (const char* ignored : {"floor", "ElasticFoundationForce"}) {
-        const Outcome read = runProgram("run " + file + options + " --ignore " + ignored);
+        const Outcome read = runTautline("run " + file + options + " --ignore " + ignored);
         EXPECT_EQ(read.exitCode, 0) << read.text;
         EXPECT_NE(read.text.find("left out, changes forces:\n  ignored as asked: 1 ElasticFoundationForce in ForceSet"),
                   std::string::npos)
@@ -117,8 +96,8 @@ TEST(Program, LeavesOutWhatItIsToldToIgnoreAndSaysWhatThatChanges) {
 }
 
 TEST(Program, RefusesAStartInGimbalLock) {
-    const Outcome outcome = runProgram("run " TAUTLINE_SOURCE_DIR "/models/accepted/singular_start.osim --out " +
-                                       makeFolder("singular").string());
+    const Outcome outcome = runTautline("run " TAUTLINE_SOURCE_DIR "/models/accepted/singular_start.osim --out " +
+                                        makeFolder("singular").string());
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_NE(outcome.text.find("coordinate 'rz' is at 0.000000 where it moves nothing"), std::string::npos)
         << outcome.text;
@@ -126,7 +105,7 @@ TEST(Program, RefusesAStartInGimbalLock) {
 
 TEST(Program, SimulatesTheElbowAndWritesStorageFiles) {
     const std::filesystem::path folder = makeFolder("elbow");
-    const Outcome outcome = runProgram("run " + kElbow + " --duration 0.2 --out " + folder.string());
+    const Outcome outcome = runTautline("run " + kElbow + " --duration 0.2 --out " + folder.string());
     ASSERT_EQ(outcome.exitCode, 0) << outcome.text;
     EXPECT_NE(outcome.text.find("excitation: 0.05 for all"), std::string::npos) << outcome.text;
     const StorageTable states = readStorage(folder / "states.sto"), paths = readStorage(folder / "paths.sto");
@@ -149,17 +128,18 @@ TEST(Program, SimulatesTheElbowAndWritesStorageFiles) {
 TEST(Program, ASecondRunGivesTheSameFilesBitForBit) {
     const std::filesystem::path first = makeFolder("first"), second = makeFolder("second");
     const std::string command = "run " + kElbow + " --duration 0.3 --excitation brachialis=0.4 --out ";
-    ASSERT_EQ(runProgram(command + first.string()).exitCode, 0);
-    ASSERT_EQ(runProgram(command + second.string()).exitCode, 0);
+    ASSERT_EQ(runTautline(command + first.string()).exitCode, 0);
+    ASSERT_EQ(runTautline(command + second.string()).exitCode, 0);
     for (const char* name : {"states.sto", "paths.sto", "events.csv"})
         EXPECT_EQ(readAll(first / name), readAll(second / name)) << name;
 }
 
 TEST(Program, ExcitationMovesTheArm) {
     const std::filesystem::path weak = makeFolder("weak"), strong = makeFolder("strong");
-    ASSERT_EQ(runProgram("run " + kElbow + " --duration 0.3 --out " + weak.string()).exitCode, 0);
+    ASSERT_EQ(runTautline("run " + kElbow + " --duration 0.3 --out " + weak.string()).exitCode, 0);
     ASSERT_EQ(
-        runProgram("run " + kElbow + " --duration 0.3 --excitation brachialis=1 --out " + strong.string()).exitCode, 0);
+        runTautline("run " + kElbow + " --duration 0.3 --excitation brachialis=1 --out " + strong.string()).exitCode,
+        0);
     const StorageTable a = readStorage(weak / "states.sto"), b = readStorage(strong / "states.sto");
     std::size_t elbow = 0;
     for (std::size_t i = 0; i < a.labels.size(); ++i)
@@ -171,10 +151,10 @@ TEST(Program, ExcitationMovesTheArm) {
 
 TEST(Program, DrawsCurvesWithGnuplot) {
     const std::filesystem::path folder = makeFolder("curves");
-    const Outcome outcome = runProgram("run " TAUTLINE_SOURCE_DIR
-                                       "/models/four_surfaces_parametric.osim --duration 1.5 "
-                                       "--interval 0.1 --plot --out " +
-                                       folder.string());
+    const Outcome outcome = runTautline("run " TAUTLINE_SOURCE_DIR
+                                        "/models/four_surfaces_parametric.osim --duration 1.5 "
+                                        "--interval 0.1 --plot --out " +
+                                        folder.string());
     ASSERT_EQ(outcome.exitCode, 0) << outcome.text;
     EXPECT_EQ(outcome.text.find("warning"), std::string::npos) << outcome.text;
     const std::string curves = readAll(folder / "curves_string.svg"), start = readAll(folder / "start_string.svg");
@@ -218,7 +198,7 @@ TEST(Program, AStartThatLeadsNowhereEndsTheRun) {
     const std::string file = writeEditedModel("four_surfaces_implicit.osim",
                                               {{"<direction>-0.4 0 1</direction>", "<direction>0.4 0 -1</direction>"}});
     const std::filesystem::path folder = makeFolder("no_start");
-    const Outcome outcome = runProgram("run " + file + " --out " + folder.string());
+    const Outcome outcome = runTautline("run " + file + " --out " + folder.string());
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_NE(outcome.text.find("tautline: path 'string': the start that the model gives leads to no shortest path"),
               std::string::npos)
@@ -228,7 +208,7 @@ TEST(Program, AStartThatLeadsNowhereEndsTheRun) {
 
 TEST(Program, TheLastOfTwoEqualOptionsCounts) {
     const std::filesystem::path folder = makeFolder("last");
-    const Outcome outcome = runProgram(
+    const Outcome outcome = runTautline(
         "run " TAUTLINE_SOURCE_DIR "/models/paraboloid.osim --duration 1 --duration 0.5 --out " + folder.string());
     EXPECT_EQ(outcome.exitCode, 0) << outcome.text;
     EXPECT_EQ(readStorage(folder / "paths.sto").rows.back()[0], 0.5);
@@ -244,11 +224,11 @@ TEST(Program, DegradedStepsMakeItFailUnlessTheyAreAllowed) {
                           {"<location>0.015 0.1 0</location>", "<location>-0.002729 -0.011964 -0.029629</location>"},
                           {"<location>0.015 -0.1 0</location>", "<location>0.002853 0.019488 0.053593</location>"}});
     const std::string command = "run " + file + " --duration 0.05 --out " + makeFolder("degraded").string();
-    const Outcome refused = runProgram(command);
+    const Outcome refused = runTautline(command);
     EXPECT_EQ(refused.exitCode, 3) << refused.text;
     EXPECT_NE(refused.text.find("steps without a verified minimum; first at "), std::string::npos) << refused.text;
     EXPECT_NE(refused.text.find("not_minimum"), std::string::npos) << refused.text;
-    EXPECT_EQ(runProgram(command + " --allow-degraded").exitCode, 0);
+    EXPECT_EQ(runTautline(command + " --allow-degraded").exitCode, 0);
 }
 
 /** The rising paraboloid swallows the string's origin: as in OpenSim it is switched off, and that is no fault. */
@@ -256,7 +236,7 @@ TEST(Program, AWrapThatAPointEntersIsSwitchedOffByAnEvent) {
     const std::string file =
         writeEditedModel("paraboloid.osim", {{"<location>-10 2.5 0</location>", "<location>-3 0.5 0</location>"}});
     const std::filesystem::path folder = makeFolder("swallowed");
-    const Outcome outcome = runProgram("run " + file + " --duration 2.4 --out " + folder.string());
+    const Outcome outcome = runTautline("run " + file + " --duration 2.4 --out " + folder.string());
     EXPECT_EQ(outcome.exitCode, 0) << outcome.text;
     EXPECT_NE(outcome.text.find("note: string: a wrap object was switched off or on 1 time"), std::string::npos)
         << outcome.text;
@@ -290,7 +270,7 @@ const Edits kRisingEllipsoid = {{"TautlineWrapParaboloid name=", "WrapEllipsoid 
 TEST(Program, ASlipIsARowOfTheEventsAndALineOfTheReport) {
     const std::string file = writeEditedModel("paraboloid.osim", kRisingEllipsoid);
     const std::filesystem::path folder = makeFolder("slip");
-    const Outcome outcome = runProgram("run " + file + " --duration 1.5 --out " + folder.string());
+    const Outcome outcome = runTautline("run " + file + " --duration 1.5 --out " + folder.string());
     ASSERT_EQ(outcome.exitCode, 0) << outcome.text;
     EXPECT_NE(outcome.text.find("note: string: 1 slip, shorter by"), std::string::npos) << outcome.text;
     std::istringstream events(readAll(folder / "events.csv"));
@@ -308,8 +288,8 @@ TEST(Program, ASlipIsARowOfTheEventsAndALineOfTheReport) {
 TEST(DataProgram, SimulatesASecondOfTheRealArm) {
     TAUTLINE_SKIP_WITHOUT_SHARED(shared);
     const std::filesystem::path folder = makeFolder("arm26");
-    const Outcome outcome = runProgram("run " + (shared / "data/opensim/models/arm26.osim").string() +
-                                       " --duration 1 --out " + folder.string());
+    const Outcome outcome = runTautline("run " + (shared / "data/opensim/models/arm26.osim").string() +
+                                        " --duration 1 --out " + folder.string());
     ASSERT_EQ(outcome.exitCode, 0) << outcome.text;
     EXPECT_NE(outcome.text.find("Thelen2003Muscle: the muscle model of Thelen (2003)"), std::string::npos);
     const StorageTable paths = readStorage(folder / "paths.sto");
