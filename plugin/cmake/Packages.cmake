@@ -90,4 +90,7 @@ if(help2man)
     install(FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
         COMPONENT tautline)
 endif()
+# Compiled files of the Python module come and go with it.
+set(CPACK_DEBIAN_PYTHON3-TAUTLINE_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_LIST_DIR}/python3/postinst"
+    "${CMAKE_CURRENT_LIST_DIR}/python3/prerm")
 include(CPack)
