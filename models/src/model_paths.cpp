@@ -123,7 +123,7 @@ ModelPaths::MuscleSlot add(const Site& site, const models::Muscle& muscle, const
 ModelPaths::SpringSlot add(const Site& site, const PathSpring& spring, const std::vector<BoundWrap>& wraps) {
     auto slot = makeSlot<ModelPaths::SpringSlot>(site, "path spring", spring, wraps);
     slot.spring =
-        ElasticStringForce(site.forces, slot.cable, spring.restingLength, spring.stiffness, spring.dissipation);
+        ElasticStringForce(site.forces, slot.cable, spring.stiffness, spring.restingLength, spring.dissipation);
     if (!spring.appliesForce) slot.spring.setDisabledByDefault(true);
     return slot;
 }

@@ -64,7 +64,7 @@ std::vector<ObstacleAnswer> getObstacles(const Cable& cable, const State& state)
         if (cable.isObstacle(e))
             obstacles.push_back({cable.isTouched(state, e),
                                  solution.contacts[static_cast<std::size_t>(e)].isSwitchedOff,
-                                 cable.getArcLength(state, e)});
+                                 cable.isTouched(state, e) ? cable.getArcLength(state, e) : 0});
     return obstacles;
 }
 

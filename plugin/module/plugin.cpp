@@ -219,7 +219,7 @@ tautline_result getContact(const Attachment* attachment, const void* state, cons
         found.is_touched = force.cable.getContactPoints(at, element, P_G, Q_G);
         found.name = force.cable.getElementName(element).c_str();
         found.mobilized_body = force.cable.getElementBody(element);
-        found.arc_length = force.cable.getArcLength(at, element);
+        found.arc_length = found.is_touched ? force.cable.getArcLength(at, element) : 0;
         found.clearance = force.cable.getClearance(at, element);
         copy(found.is_touched ? P_G : SimTK::Vec3(SimTK::NaN), found.P);
         copy(found.is_touched ? Q_G : SimTK::Vec3(SimTK::NaN), found.Q);

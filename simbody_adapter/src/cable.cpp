@@ -5,6 +5,7 @@
 #include "cable_subsystem_impl.h"
 #include "tautline/error.h"
 #include "tautline/paths/path_kinematics.h"
+#include "tautline/simbody/contact_geometry_surface.h"
 #include "tautline/simbody/conversions.h"
 
 namespace tautline {
@@ -16,12 +17,12 @@ using SimTK::State;
 
 namespace {
 
-CableElement makePoint(const CableImpl& cable, const MobilizedBody& body, const SimTK::Vec3& station_B,
+CableElement makePoint(const CableImpl& cable, SimTK::MobilizedBodyIndex body, const SimTK::Vec3& station_B,
                        std::string name) {
     require(station_B.isFinite(), "cable '", cable.getName(), "': the station of ",
             name.empty() ? "a point" : "'" + name + "'", " is not finite: ", station_B);
     CableElement point;
-    point.name = std::move(name), point.body = body.getMobilizedBodyIndex(), point.X_BE = SimTK::Transform(station_B);
+    point.name = std::move(name), point.body = body, point.X_BE = SimTK::Transform(station_B);
     return point;
 }
 
@@ -30,24 +31,39 @@ StartHint toStartHint(const std::optional<SimTK::Vec3>& hint_S) {
     return PassNear{toEigen(*hint_S)};
 }
 
-/** A body of another system would be taken for one of ours with the same index. */
-void requireOwnBody(const CableSubsystemImpl& cables, const std::string& cable, const MobilizedBody& body) {
-    require(body.isInSubsystem() && body.getMatterSubsystem().isSameSubsystem(cables.getMatter()), "cable '", cable,
-            "': a body does not belong to the cable's system");
+void requireTension(const Cable& cable, Real tension) {
+    // A NaN is passed on: it is to be seen.
+    require(!(tension < 0), "cable '", cable.getName(), "': a string cannot push, but the tension is ", tension);
 }
 
 }  // namespace
 
-Cable::Cable(CableSubsystem& cables, const MobilizedBody& originBody, const SimTK::Vec3& originStation_B,
-             const MobilizedBody& insertionBody, const SimTK::Vec3& insertionStation_B, std::string name) {
+SimTK::MobilizedBodyIndex CableBody::findIndex(const SimTK::SimbodyMatterSubsystem& matter,
+                                               const std::string& cable) const {
+    if (m_body) {
+        require(m_body->isInSubsystem() && m_body->getMatterSubsystem().isSameSubsystem(matter), "cable '", cable,
+                "': a body does not belong to the cable's system");
+        return m_body->getMobilizedBodyIndex();
+    }
+    require(m_index.isValid() && m_index < matter.getNumBodies(), "cable '", cable, "': no body ",
+            static_cast<int>(m_index), " of ", matter.getNumBodies());
+    return m_index;
+}
+
+Cable::Cable(CableSubsystem& cables, const CableBody& originBody, const SimTK::Vec3& originStation_B,
+             const CableBody& insertionBody, const SimTK::Vec3& insertionStation_B, std::string name) {
     CableSubsystemImpl& owner = cables.updImpl();
-    requireOwnBody(owner, name, originBody);
-    requireOwnBody(owner, name, insertionBody);
+    const SimTK::MobilizedBodyIndex first = originBody.findIndex(owner.getMatter(), name);
+    const SimTK::MobilizedBodyIndex last = insertionBody.findIndex(owner.getMatter(), name);
     require(originStation_B.isFinite() && insertionStation_B.isFinite(), "cable '", name,
             "': an end is not finite: origin ", originStation_B, ", insertion ", insertionStation_B);
     m_impl = &owner.addCable(std::move(name));
-    m_impl->setEnds(makePoint(get(), originBody, originStation_B, "origin"),
-                    makePoint(get(), insertionBody, insertionStation_B, "insertion"));
+    m_impl->setEnds(makePoint(get(), first, originStation_B, "origin"),
+                    makePoint(get(), last, insertionStation_B, "insertion"));
+}
+
+SimTK::MobilizedBodyIndex Cable::findBody(const CableBody& body) const {
+    return body.findIndex(get().getSubsystemImpl().getMatter(), getName());
 }
 
 CableImpl& Cable::upd() const {
@@ -59,25 +75,24 @@ const CableImpl& Cable::get() const {
     return upd();
 }
 
-CableElementIndex Cable::addViaPoint(const MobilizedBody& body, const SimTK::Vec3& station_B, std::string name) {
-    requireOwnBody(get().getSubsystemImpl(), getName(), body);
-    return upd().insertElement(makePoint(get(), body, station_B, std::move(name)));
+CableElementIndex Cable::addViaPoint(const CableBody& body, const SimTK::Vec3& station_B, std::string name) {
+    return upd().insertElement(makePoint(get(), findBody(body), station_B, std::move(name)));
 }
 
-CableElementIndex Cable::addMovingPoint(const MobilizedBody& body, std::shared_ptr<const MovingStation> station,
+CableElementIndex Cable::addMovingPoint(const CableBody& body, std::shared_ptr<const MovingStation> station,
                                         std::string name) {
-    requireOwnBody(get().getSubsystemImpl(), getName(), body);
+    const SimTK::MobilizedBodyIndex index = findBody(body);
     require(station != nullptr, "cable '", getName(), "': the moving point '", name, "' has no station");
-    CableElement point = makePoint(get(), body, SimTK::Vec3(0), std::move(name));
+    CableElement point = makePoint(get(), index, SimTK::Vec3(0), std::move(name));
     point.moving = std::move(station);
     return upd().insertElement(std::move(point));
 }
 
-CableElementIndex Cable::addConditionalPoint(const MobilizedBody& body, const SimTK::Vec3& station_B,
+CableElementIndex Cable::addConditionalPoint(const CableBody& body, const SimTK::Vec3& station_B,
                                              std::function<bool(const State&)> isActive, std::string name) {
-    requireOwnBody(get().getSubsystemImpl(), getName(), body);
+    const SimTK::MobilizedBodyIndex index = findBody(body);
     require(isActive != nullptr, "cable '", getName(), "': the conditional point '", name, "' has no condition");
-    CableElement point = makePoint(get(), body, station_B, std::move(name));
+    CableElement point = makePoint(get(), index, station_B, std::move(name));
     point.isActive = std::move(isActive);
     return upd().insertElement(std::move(point));
 }
@@ -92,33 +107,76 @@ void Cable::setMovingInsertion(std::shared_ptr<const MovingStation> station) {
     upd().setMovingEnd(false, std::move(station));
 }
 
-CableElementIndex Cable::addObstacle(const MobilizedBody& body, const SimTK::Transform& X_BS,
+CableElementIndex Cable::addObstacle(const CableBody& body, const SimTK::Transform& X_BS,
                                      std::shared_ptr<const Surface> surface, std::optional<SimTK::Vec3> hint_S,
                                      std::string name) {
     return addObstacle(body, X_BS, std::move(surface), toStartHint(hint_S), std::move(name));
 }
 
-CableElementIndex Cable::addObstacle(const MobilizedBody& body, const SimTK::Transform& X_BS,
+CableElementIndex Cable::addObstacle(const CableBody& body, const SimTK::Transform& X_BS,
                                      std::shared_ptr<const Surface> surface, const StartHint& hint, std::string name) {
-    requireOwnBody(get().getSubsystemImpl(), getName(), body);
+    const SimTK::MobilizedBodyIndex index = findBody(body);
     require(surface != nullptr, "cable '", getName(), "': obstacle '", name, "' has no surface");
-    require(X_BS.p().isFinite() && X_BS.R().isFinite(), "cable '", getName(), "': the pose of obstacle '", name,
-            "' is not finite");
     CableElement obstacle;
-    obstacle.name = std::move(name), obstacle.body = body.getMobilizedBodyIndex(), obstacle.X_BE = X_BS;
+    obstacle.name = std::move(name), obstacle.body = index, obstacle.X_BE = X_BS;
     obstacle.surface = std::move(surface), obstacle.hint = hint;
     return upd().insertElement(std::move(obstacle));
 }
 
 void Cable::setCondition(CableElementIndex obstacle, std::function<bool(const State&)> isActive) {
-    upd().setCondition(obstacle, std::move(isActive));
+    CableElement changed = get().getElements().getObstacle(obstacle);
+    require(!changed.isActive, "cable '", getName(), "': obstacle '", changed.name, "' has a condition already");
+    changed.isActive = std::move(isActive);
+    upd().setElement(obstacle, std::move(changed));
+}
+
+CableElementIndex Cable::addObstacle(const CableBody& body, const SimTK::Transform& X_BS,
+                                     const std::shared_ptr<const SimTK::ContactGeometry>& geometry,
+                                     std::optional<SimTK::Vec3> hint_S, std::string name) {
+    return addObstacle(body, X_BS, geometry, toStartHint(hint_S), std::move(name));
+}
+
+CableElementIndex Cable::addObstacle(const CableBody& body, const SimTK::Transform& X_BS,
+                                     const std::shared_ptr<const SimTK::ContactGeometry>& geometry,
+                                     const StartHint& hint, std::string name) {
+    require(geometry != nullptr, "cable '", getName(), "': obstacle '", name, "' has no geometry");
+    return addObstacle(body, X_BS, makeSurface(*geometry), hint, std::move(name));
+}
+
+void Cable::setBody(CableElementIndex element, const CableBody& body) {
+    CableElement changed = get().getElements().get(element);
+    changed.body = findBody(body);
+    upd().setElement(element, std::move(changed));
+}
+
+void Cable::setStation(CableElementIndex point, const SimTK::Vec3& station_B) {
+    CableElement changed = get().getElements().get(point);
+    require(!changed.surface, "cable '", getName(), "': '", changed.name, "' is an obstacle and has no station");
+    changed.X_BE = SimTK::Transform(station_B);
+    changed.moving = nullptr;
+    upd().setElement(point, std::move(changed));
+}
+
+void Cable::setObstacleFrame(CableElementIndex obstacle, const SimTK::Transform& X_BS) {
+    CableElement changed = get().getElements().getObstacle(obstacle);
+    changed.X_BE = X_BS;
+    upd().setElement(obstacle, std::move(changed));
+}
+
+void Cable::setSurface(CableElementIndex obstacle, std::shared_ptr<const Surface> surface) {
+    CableElement changed = get().getElements().getObstacle(obstacle);
+    require(surface != nullptr, "cable '", getName(), "': obstacle '", changed.name, "' has no surface");
+    changed.surface = std::move(surface);
+    upd().setElement(obstacle, std::move(changed));
 }
 
 void Cable::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
-    upd().setHint(obstacle, toStartHint(hint_S));
+    setHint(obstacle, toStartHint(hint_S));
 }
 void Cable::setHint(CableElementIndex obstacle, const StartHint& hint) {
-    upd().setHint(obstacle, hint);
+    CableElement changed = get().getElements().getObstacle(obstacle);
+    changed.hint = hint;
+    upd().setElement(obstacle, std::move(changed));
 }
 
 void Cable::setOptions(const PathSolverOptions& options) {
@@ -132,6 +190,10 @@ void Cable::setDisabledByDefault(bool isDisabled) {
 }
 bool Cable::isDisabledByDefault() const {
     return get().isDisabledByDefault();
+}
+
+void Cable::setDefaultContactMode(ContactMode mode) {
+    upd().setDefaultContactMode(mode);
 }
 
 void Cable::setContactListener(std::function<void(const ContactEvent&)> listener) const {
@@ -156,6 +218,19 @@ const SimTK::SimbodyMatterSubsystem& Cable::getMatterSubsystem() const {
 
 int Cable::getNumElements() const {
     return get().getElements().size();
+}
+
+int Cable::getNumObstacles() const {
+    return get().getElements().countObstacles();
+}
+int Cable::getNumViaPoints() const {
+    return getNumElements() - 2 - getNumObstacles();
+}
+CableElementIndex Cable::getObstacle(int number) const {
+    return get().getElements().find(true, number);
+}
+CableElementIndex Cable::getViaPoint(int number) const {
+    return get().getElements().find(false, number);
 }
 
 bool Cable::isObstacle(CableElementIndex element) const {
@@ -202,6 +277,13 @@ bool Cable::isDisabled(const State& state) const {
     return get().isDisabled(state);
 }
 
+void Cable::setContactMode(State& state, ContactMode mode) const {
+    get().setContactMode(state, mode);
+}
+ContactMode Cable::getContactMode(const State& state) const {
+    return get().getContactMode(state);
+}
+
 void Cable::fixContacts(State& state) const {
     get().keepContacts(state, get().calcSettledPath(state));
 }
@@ -217,7 +299,7 @@ void Cable::releaseContacts(State& state) const {
 }
 
 bool Cable::areContactsFixed(const State& state) const {
-    return get().getPathState().getMode(state).keepsContacts;
+    return get().areContactsFixed(state);
 }
 
 Real Cable::getLength(const State& state) const {
@@ -274,7 +356,7 @@ bool Cable::isTouched(const State& state, CableElementIndex obstacle) const {
 Real Cable::getArcLength(const State& state, CableElementIndex obstacle) const {
     get().getElements().getObstacle(obstacle);
     const ObstacleContact& contact = get().getPath(state, "Cable::getArcLength()").contacts[obstacle];
-    return contact.isTouched ? contact.geodesic.length : 0;
+    return contact.isTouched ? contact.geodesic.length : SimTK::NaN;
 }
 
 bool Cable::getContactPoints(const State& state, CableElementIndex obstacle, SimTK::Vec3& P_G, SimTK::Vec3& Q_G) const {
@@ -303,6 +385,25 @@ bool Cable::getContactFrames(const State& state, CableElementIndex obstacle, Sim
     return true;
 }
 
+bool Cable::getContactTangents(const State& state, CableElementIndex obstacle, SimTK::UnitVec3& atP_G,
+                               SimTK::UnitVec3& atQ_G) const {
+    get().getElements().getObstacle(obstacle);
+    const ObstacleContact& contact = get().getPath(state, "Cable::getContactTangents()").contacts[obstacle];
+    if (!contact.isTouched) return false;
+    const Pose& X_GS = get().getPose(state).X_GE[obstacle];
+    atP_G = SimTK::UnitVec3(toSimTK(X_GS.rotate(contact.geodesic.P.t)));
+    atQ_G = SimTK::UnitVec3(toSimTK(X_GS.rotate(contact.geodesic.Q.t)));
+    return true;
+}
+
+SimTK::UnitVec3 Cable::calcOriginTangent(const State& state) const {
+    return SimTK::UnitVec3(toSimTK(get().getSegments(state, "Cable::calcOriginTangent()").front().e));
+}
+
+SimTK::UnitVec3 Cable::calcInsertionTangent(const State& state) const {
+    return SimTK::UnitVec3(toSimTK(get().getSegments(state, "Cable::calcInsertionTangent()").back().e));
+}
+
 Real Cable::getClearance(const State& state, CableElementIndex obstacle) const {
     get().getElements().getObstacle(obstacle);
     const ObstacleContact& contact = get().getPath(state, "Cable::getClearance()").contacts[obstacle];
@@ -323,11 +424,22 @@ std::vector<SimTK::Vec3> Cable::calcDrawingPoints(const State& state, Real maxAn
     return result;
 }
 
+std::vector<SimTK::Vec3> Cable::calcResampledPoints(const State& state, int count) const {
+    return get().calcResampledPoints(state, count);
+}
+
+std::vector<SimTK::Vec3> Cable::calcResampledArc(const State& state, CableElementIndex obstacle, int count) const {
+    get().getElements().getObstacle(obstacle);
+    return get().calcResampledArc(state, obstacle, count);
+}
+
 void Cable::applyBodyForces(const State& state, Real tension, SimTK::Vector_<SpatialVec>& bodyForces) const {
+    requireTension(*this, tension);
     get().addBodyForces(state, tension, bodyForces, "Cable::applyBodyForces()");
 }
 
 void Cable::applyMobilityForces(const State& state, Real tension, SimTK::Vector& mobilityForces) const {
+    requireTension(*this, tension);
     get().addMobilityForces(state, tension, mobilityForces, "Cable::applyMobilityForces()");
 }
 
@@ -337,9 +449,15 @@ void Cable::calcUnitBodyForces(const State& state, SimTK::Vector_<SpatialVec>& u
     get().addBodyForces(state, 1, unitForces, "Cable::calcUnitBodyForces()");
 }
 
-SpatialVec Cable::calcUnitElementForce(const State& state, CableElementIndex element) const {
+SpatialVec Cable::calcUnitForceAboutBodyOrigin(const State& state, CableElementIndex element) const {
     get().getElements().get(element);
-    return toSpatialVec(get().getElementForces(state, "Cable::calcUnitElementForce()")[element]);
+    const std::vector<SpatialForce>& F_GE = get().getElementForces(state, "Cable::calcUnitForceAboutBodyOrigin()");
+    return get().getElements().calcForceAboutBodyOrigin(state, get().getPose(state), F_GE, element);
+}
+
+SpatialVec Cable::calcUnitForceAboutElementOrigin(const State& state, CableElementIndex element) const {
+    get().getElements().get(element);
+    return toSpatialVec(get().getElementForces(state, "Cable::calcUnitForceAboutElementOrigin()")[element]);
 }
 
 void Cable::calcUnitMobilityForces(const State& state, SimTK::Vector& unitForces) const {
@@ -367,6 +485,7 @@ Real Cable::getLengthAccelerationBias(const State& state) const {
 }
 
 Real Cable::calcPower(const State& state, Real tension) const {
+    requireTension(*this, tension);
     get().getSubsystemImpl().ensureStage(state, SimTK::Stage::Velocity, "Cable::calcPower()");
     SimTK::Vector_<SpatialVec> F_G;
     calcUnitBodyForces(state, F_G);

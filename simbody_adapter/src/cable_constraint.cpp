@@ -116,6 +116,9 @@ Real CableConstraint::getLength() const {
 Real CableConstraint::getTension(const State& state) const {
     SimTK_STAGECHECK_GE_ALWAYS(state.getSystemStage(), SimTK::Stage(SimTK::Stage::Topology),
                                "CableConstraint::getTension()");
+    // A host that was built for Release checks no stage by itself.
+    SimTK_STAGECHECK_GE_ALWAYS(getMatterSubsystem().getStage(state), SimTK::Stage(SimTK::Stage::Acceleration),
+                               "CableConstraint::getTension()");
     return isDisabled(state) ? 0 : getMultipliersAsVector(state)[0];
 }
 

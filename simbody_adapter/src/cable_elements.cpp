@@ -28,28 +28,36 @@ CableElementIndex CableElements::insert(CableElement element) {
     for (const CableElement& other : m_elements)
         require(other.name != element.name, "cable '", m_cableName, "': there is an element '", element.name,
                 "' already");
-    if (element.surface) checkHint(element);
+    check(element);
     m_elements.insert(m_elements.end() - 1, std::move(element));
     return index;
 }
 
-void CableElements::setCondition(CableElementIndex obstacle, std::function<bool(const State&)> isActive) {
-    require(!getObstacle(obstacle).isActive, "cable '", m_cableName, "': obstacle '", getObstacle(obstacle).name,
-            "' has a condition already");
-    m_elements[obstacle].isActive = std::move(isActive);
+void CableElements::replace(CableElementIndex index, CableElement element) {
+    check(element);
+    m_elements[index] = std::move(element);
 }
 
-void CableElements::setHint(CableElementIndex obstacle, const StartHint& hint) {
-    CableElement changed = getObstacle(obstacle);
-    changed.hint = hint;
-    checkHint(changed);
-    m_elements[obstacle] = changed;
+namespace {
+
+/** A rotation is taken as it is, never re-orthogonalized: what is none would shear and scale a surface. */
+bool isRotation(const SimTK::Rotation& R) {
+    constexpr Real kRounding = 1e-8;
+    const Mat3 M = toEigen(R.asMat33());
+    return (M.transpose() * M - Mat3::Identity()).norm() < kRounding && M.determinant() > 0;
 }
 
-/** @throws InvalidInput as the core would when the path problem is built */
-void CableElements::checkHint(const CableElement& obstacle) const {
+}  // namespace
+
+/** @throws InvalidInput for what Simbody and the core would take as it is, or refuse later */
+void CableElements::check(const CableElement& element) const {
+    require(element.X_BE.p().isFinite(), "cable '", m_cableName, "': where '", element.name,
+            "' is on its body is not finite: ", element.X_BE.p());
+    require(isRotation(element.X_BE.R()), "cable '", m_cableName, "': the orientation of '", element.name,
+            "' is no rotation: ", element.X_BE.R().asMat33());
+    if (!element.surface) return;
     try {
-        PathProblem().addObstacle(obstacle.name, obstacle.surface, obstacle.hint);
+        PathProblem().addObstacle(element.name, element.surface, element.hint);
     } catch (const InvalidInput& error) {
         throw InvalidInput("cable '" + m_cableName + "': " + error.what());
     }
@@ -70,6 +78,18 @@ const CableElement& CableElements::getObstacle(CableElementIndex element) const 
 
 bool CableElements::hasMovingPoints() const {
     return std::any_of(begin(), end(), [](const CableElement& e) { return e.moving || e.isActive; });
+}
+
+int CableElements::countObstacles() const {
+    return static_cast<int>(std::count_if(begin(), end(), [](const CableElement& e) { return e.surface != nullptr; }));
+}
+
+CableElementIndex CableElements::find(bool isObstacle, int number) const {
+    int count = 0;
+    for (CableElementIndex e(1); e < size() - 1; ++e)
+        if ((m_elements[e].surface != nullptr) == isObstacle && count++ == number) return e;
+    throw InvalidInput("cable '" + m_cableName + "': no " + (isObstacle ? "obstacle " : "via point ") +
+                       std::to_string(number) + " of " + std::to_string(count));
 }
 
 PathProblem CableElements::makeProblem() const {
@@ -111,20 +131,37 @@ void CableElements::calcVelocities(const State& state, std::vector<SpatialVeloci
     }
 }
 
+void CableElements::calcVelocities(const PathPose& pose, const std::vector<SpatialVec>& V_GB,
+                                   std::vector<SpatialVelocity>& V_GE) const {
+    V_GE.resize(V_GB.empty() || pose.X_GE.empty() ? 0 : m_elements.size());
+    for (std::size_t e = 0; e < V_GE.size(); ++e) {
+        const CableElement& element = m_elements[e];
+        const SpatialVec& V = V_GB[element.body];
+        V_GE[e] = {toEigen(V[0]), toEigen(V[1])};
+        if (element.moving) continue;
+        const Vec3 p_BE_E = toEigen(~element.X_BE.R() * element.X_BE.p());
+        V_GE[e].v += V_GE[e].w.cross(pose.X_GE[e].R * p_BE_E);
+    }
+}
+
 Vec3 CableElements::calcCentripetalAcceleration(const State& state, int element, const Vec3& w) const {
     const CableElement& at = m_elements[element];
     const Vec3 p_BE_G = toEigen(getBody(at).getBodyRotation(state) * at.X_BE.p());
     return w.cross(w.cross(p_BE_G));
 }
 
+SpatialVec CableElements::calcForceAboutBodyOrigin(const State& state, const PathPose& pose,
+                                                   const std::vector<SpatialForce>& F_GE, int element) const {
+    const SpatialVec F = toSpatialVec(F_GE[element]);
+    const SimTK::Vec3 p_BE_G =
+        toSimTK(pose.X_GE[element].p) - getBody(m_elements[element]).getBodyOriginLocation(state);
+    return SpatialVec(F[0] + p_BE_G % F[1], F[1]);
+}
+
 void CableElements::addBodyForces(const State& state, const PathPose& pose, const std::vector<SpatialForce>& F_GE,
                                   Real tension, SimTK::Vector_<SpatialVec>& bodyForces) const {
-    for (std::size_t e = 0; e < m_elements.size(); ++e) {
-        const CableElement& element = m_elements[e];
-        const SpatialVec F = tension * toSpatialVec(F_GE[e]);
-        const SimTK::Vec3 p_BE_G = toSimTK(pose.X_GE[e].p) - getBody(element).getBodyOriginLocation(state);
-        bodyForces[element.body] += SpatialVec(F[0] + p_BE_G % F[1], F[1]);
-    }
+    for (int e = 0; e < size(); ++e)
+        bodyForces[m_elements[e].body] += tension * calcForceAboutBodyOrigin(state, pose, F_GE, e);
 }
 
 void CableElements::addMobilityForces(const State& state, const std::vector<SpatialForce>& F_GE, Real tension,

@@ -38,10 +38,8 @@ public:
     /** @param element   before the insertion; without a name it gets one
     @throws InvalidInput if its name is taken or its hint does not suit its surface */
     CableElementIndex insert(CableElement element);
-    /** @throws InvalidInput if `obstacle` is none or has a condition already */
-    void setCondition(CableElementIndex obstacle, std::function<bool(const SimTK::State&)> isActive);
-    /** @throws InvalidInput if `obstacle` is none, or the hint does not suit its surface */
-    void setHint(CableElementIndex obstacle, const StartHint& hint);
+    /** @throws InvalidInput as insert() */
+    void replace(CableElementIndex index, CableElement element);
 
     int size() const { return static_cast<int>(m_elements.size()); }
     auto begin() const { return m_elements.begin(); }
@@ -51,6 +49,9 @@ public:
     const CableElement& get(CableElementIndex element) const;
     const CableElement& getObstacle(CableElementIndex element) const;
     bool hasMovingPoints() const;
+    int countObstacles() const;
+    /** The obstacle, or via point, of this number. @throws InvalidInput if there are not that many */
+    CableElementIndex find(bool isObstacle, int number) const;
 
     PathProblem makeProblem() const;
 
@@ -58,10 +59,17 @@ public:
     void calcPose(const SimTK::State& state, PathPose& pose) const;
     /** Of all elements in ground, at their origins. Stage: Velocity of the bodies. */
     void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
+    /** At a pose of earlier, without the motion of moving points on their bodies.
+    @param V_GB   of all bodies, about their origins; empty: not known, and neither is V_GE then */
+    void calcVelocities(const PathPose& pose, const std::vector<SimTK::SpatialVec>& V_GB,
+                        std::vector<SpatialVelocity>& V_GE) const;
     /** What the turning of its body gives an element's origin [m/s^2], in ground, without that of the body's origin.
     @param w   angular velocity of the body in ground [rad/s] */
     Vec3 calcCentripetalAcceleration(const SimTK::State& state, int element, const Vec3& w) const;
 
+    /** Of one element on its body, in ground [N m, N]. */
+    SimTK::SpatialVec calcForceAboutBodyOrigin(const SimTK::State& state, const PathPose& pose,
+                                               const std::vector<SpatialForce>& F_GE, int element) const;
     /** @param F_GE         of unit tension on the elements, about their origins, in ground
     @param[in,out] bodyForces   by body, about the bodies' origins, in ground [N m, N] */
     void addBodyForces(const SimTK::State& state, const PathPose& pose, const std::vector<SpatialForce>& F_GE,
@@ -73,7 +81,7 @@ public:
                            SimTK::Vector& mobilityForces) const;
 
 private:
-    void checkHint(const CableElement& obstacle) const;
+    void check(const CableElement& element) const;
     const SimTK::MobilizedBody& getBody(const CableElement& element) const;
 
     const CableSubsystemImpl& m_cables;

@@ -12,68 +12,119 @@ using SimTK::State;
 
 namespace {
 
-Real requireNotNegative(const char* force, const Cable& cable, Real value, const char* what) {
+void requireNotNegative(const char* force, const Cable& cable, Real value, const char* what) {
     require(std::isfinite(value) && value >= 0, force, " on cable '", cable.getName(), "': ", what,
             " must be finite and not negative, but is ", value);
-    return value;
 }
 
-class ElasticStringLaw : public CableForceLaw {
+/** Stiffness, slack length and damping as one State variable, and what damping has taken out as a z. */
+class SpringLaw : public CableForceLaw {
 public:
-    ElasticStringLaw(const Cable& cable, Real slackLength, Real stiffness, Real damping)
-        : CableForceLaw(cable),
-          m_slackLength(requireNotNegative("elastic string force", cable, slackLength, "slack length")),
-          m_stiffness(requireNotNegative("elastic string force", cable, stiffness, "stiffness")),
-          m_damping(requireNotNegative("elastic string force", cable, damping, "damping")) {}
-
-    Real getSlackLength() const { return m_slackLength; }
-    Real getStiffness() const { return m_stiffness; }
-    Real getDamping() const { return m_damping; }
-
-    Real calcStretch(const State& state) const {
-        return std::max(Real(0), getCable().getLength(state) - m_slackLength);
+    SpringLaw(const Cable& cable, const char* name, const CableSpringParameters& parameters)
+        : CableForceLaw(cable), m_name(name), m_default(parameters) {
+        check(parameters);
     }
 
-    Real calcTension(const State& state) const override {
-        const Real stretch = calcStretch(state);
-        if (stretch == 0) return 0;
-        const Real rate = m_damping > 0 ? getCable().getLengthRate(state) : 0;
-        return m_stiffness * stretch * (1 + m_damping * rate);
+    const CableSpringParameters& getDefaultParameters() const { return m_default; }
+
+    const CableSpringParameters& getParameters(const State& state) const {
+        ensureTopology(state, m_name);
+        return SimTK::Value<CableSpringParameters>::downcast(m_forces->getDiscreteVariable(state, m_parameters));
+    }
+
+    void setParameters(State& state, const CableSpringParameters& parameters) const {
+        check(parameters);
+        require(m_default.damping > 0 || parameters.damping == 0, m_name, " on cable '", getCable().getName(),
+                "': was made without damping, so that no State has room for the energy that damping takes");
+        ensureTopology(state, m_name);
+        SimTK::Value<CableSpringParameters>::updDowncast(m_forces->updDiscreteVariable(state, m_parameters)) =
+            parameters;
+    }
+
+    Real getDissipatedEnergy(const State& state) const {
+        ensureTopology(state, m_name);
+        return m_dissipated.isValid() ? m_forces->getZ(state)[m_dissipated] : 0;
+    }
+
+    void setDissipatedEnergy(State& state, Real energy) const {
+        require(m_dissipated.isValid(), m_name, " on cable '", getCable().getName(),
+                "': was made without damping and dissipates nothing");
+        require(std::isfinite(energy), m_name, " on cable '", getCable().getName(),
+                "': the dissipated energy must be finite, but is ", energy);
+        ensureTopology(state, m_name);
+        m_forces->updZ(state)[m_dissipated] = energy;
+    }
+
+    /** Length beyond the slack length, negative while slack [m]; NaN where the length is. */
+    Real calcExcess(const State& state) const { return getCable().getLength(state) - getParameters(state).slackLength; }
+
+    /** NaN where the length is. */
+    Real calcStretch(const State& state) const {
+        const Real excess = calcExcess(state);
+        return excess < 0 ? 0 : excess;
     }
 
     Real calcPotentialEnergy(const State& state) const override {
-        return m_stiffness * SimTK::square(calcStretch(state)) / 2;
+        return getParameters(state).stiffness * SimTK::square(calcStretch(state)) / 2;
+    }
+
+    /** What the tension does beyond the elastic part, so that the cut at zero is accounted for. */
+    Real calcPowerDissipation(const State& state) const {
+        if (getCable().isDisabled(state)) return 0;
+        const Real law = calcTension(state), tension = law < 0 ? 0 : law;
+        return (tension - getParameters(state).stiffness * calcStretch(state)) * getCable().getLengthRate(state);
+    }
+
+    void realizeTopology(State& state, const SimTK::Subsystem& forces) override {
+        m_forces = &forces;
+        m_parameters = forces.allocateDiscreteVariable(state, SimTK::Stage::Dynamics,
+                                                       new SimTK::Value<CableSpringParameters>(m_default));
+        m_dissipated = SimTK::ZIndex();
+        if (m_default.damping > 0) m_dissipated = forces.allocateZ(state, SimTK::Vector(1, Real(0)));
+    }
+
+    void realizeDerivatives(const State& state, const SimTK::Subsystem& forces) const override {
+        if (m_dissipated.isValid()) forces.updZDot(state)[m_dissipated] = calcPowerDissipation(state);
     }
 
 private:
-    Real m_slackLength, m_stiffness, m_damping;
+    void check(const CableSpringParameters& parameters) const {
+        requireNotNegative(m_name, getCable(), parameters.stiffness, "stiffness");
+        requireNotNegative(m_name, getCable(), parameters.slackLength, "slack length");
+        requireNotNegative(m_name, getCable(), parameters.damping, "damping");
+    }
+
+    const char* m_name;
+    CableSpringParameters m_default;
+    const SimTK::Subsystem* m_forces = nullptr;
+    SimTK::DiscreteVariableIndex m_parameters;
+    SimTK::ZIndex m_dissipated;  ///< invalid: made without damping
 };
 
-class CableSpringLaw : public CableForceLaw {
+class ElasticStringLaw final : public SpringLaw {
 public:
-    CableSpringLaw(const Cable& cable, Real restLength, Real stiffness, Real damping)
-        : CableForceLaw(cable),
-          m_restLength(requireNotNegative("cable spring", cable, restLength, "rest length")),
-          m_stiffness(requireNotNegative("cable spring", cable, stiffness, "stiffness")),
-          m_damping(requireNotNegative("cable spring", cable, damping, "damping")) {}
-
-    Real getRestLength() const { return m_restLength; }
-    Real getStiffness() const { return m_stiffness; }
-    Real getDamping() const { return m_damping; }
+    ElasticStringLaw(const Cable& cable, const CableSpringParameters& parameters)
+        : SpringLaw(cable, "elastic string force", parameters) {}
 
     Real calcTension(const State& state) const override {
-        // Below the rest length the spring is slack and the damper alone pulls.
-        return m_stiffness * std::max(Real(0), calcStretch(state)) + m_damping * getCable().getLengthRate(state);
+        const CableSpringParameters& parameters = getParameters(state);
+        const Real stretch = calcStretch(state);
+        if (stretch == 0) return 0;
+        const Real rate = parameters.damping > 0 ? getCable().getLengthRate(state) : 0;
+        return parameters.stiffness * stretch * (1 + parameters.damping * rate);
     }
+};
 
-    Real calcPotentialEnergy(const State& state) const override {
-        return m_stiffness * SimTK::square(std::max(Real(0), calcStretch(state))) / 2;
+class CableSpringLaw final : public SpringLaw {
+public:
+    CableSpringLaw(const Cable& cable, const CableSpringParameters& parameters)
+        : SpringLaw(cable, "cable spring", parameters) {}
+
+    /** Below the slack length the spring is slack and the damper alone pulls. */
+    Real calcTension(const State& state) const override {
+        const CableSpringParameters& parameters = getParameters(state);
+        return parameters.stiffness * calcStretch(state) + parameters.damping * getCable().getLengthRate(state);
     }
-
-private:
-    Real calcStretch(const State& state) const { return getCable().getLength(state) - m_restLength; }
-
-    Real m_restLength, m_stiffness, m_damping;
 };
 
 /** A tension from a discrete variable (no function) or from a function. */
@@ -123,8 +174,8 @@ private:
     SimTK::DiscreteVariableIndex m_tension;
 };
 
-const ElasticStringLaw& getElasticLaw(const CableForce& force) {
-    return dynamic_cast<const ElasticStringLaw&>(force.getLaw());
+const SpringLaw& getSpringLaw(const CableForce& force) {
+    return dynamic_cast<const SpringLaw&>(force.getLaw());
 }
 
 std::function<Real(const State&)> makeTimeFunction(SimTK::Function* tensionOfTime) {
@@ -137,45 +188,43 @@ std::function<Real(const State&)> makeTimeFunction(SimTK::Function* tensionOfTim
 
 }  // namespace
 
-ElasticStringForce::ElasticStringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, Real slackLength,
-                                       Real stiffness, Real damping)
-    : CableForce(forces, std::make_unique<ElasticStringLaw>(cable, slackLength, stiffness, damping)) {}
-
-Real ElasticStringForce::getSlackLength() const {
-    return getElasticLaw(*this).getSlackLength();
+const CableSpringParameters& CableSpringBase::getDefaultParameters() const {
+    return getSpringLaw(*this).getDefaultParameters();
 }
-Real ElasticStringForce::getStiffness() const {
-    return getElasticLaw(*this).getStiffness();
+const CableSpringParameters& CableSpringBase::getParameters(const State& state) const {
+    return getSpringLaw(*this).getParameters(state);
 }
-Real ElasticStringForce::getDamping() const {
-    return getElasticLaw(*this).getDamping();
+void CableSpringBase::setParameters(State& state, const CableSpringParameters& parameters) const {
+    getSpringLaw(*this).setParameters(state, parameters);
 }
 
-Real ElasticStringForce::getStretch(const State& state) const {
-    return getElasticLaw(*this).calcStretch(state);
+Real CableSpringBase::getStretch(const State& state) const {
+    return getSpringLaw(*this).calcStretch(state);
 }
 
-Real ElasticStringForce::getPowerDissipation(const State& state) const {
-    CableForceLaw::ensureTopology(state, "ElasticStringForce::getPowerDissipation()");
+Real CableSpringBase::getPowerDissipation(const State& state) const {
+    CableForceLaw::ensureTopology(state, "CableSpringBase::getPowerDissipation()");
     if (isDisabled(state) || getCable().isDisabled(state)) return 0;
-    const Real rate = getCable().getLengthRate(state);
-    // What the tension does beyond the elastic part, so that the cut at zero is accounted for.
-    return (getTension(state) - getStiffness() * getStretch(state)) * rate;
+    getTension(state);  // has the stage checked
+    return getSpringLaw(*this).calcPowerDissipation(state);
 }
 
-CableSpringForce::CableSpringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, Real restLength,
-                                   Real stiffness, Real damping)
-    : CableForce(forces, std::make_unique<CableSpringLaw>(cable, restLength, stiffness, damping)) {}
+Real CableSpringBase::getDissipatedEnergy(const State& state) const {
+    return getSpringLaw(*this).getDissipatedEnergy(state);
+}
+void CableSpringBase::setDissipatedEnergy(State& state, Real energy) const {
+    getSpringLaw(*this).setDissipatedEnergy(state, energy);
+}
 
-Real CableSpringForce::getRestLength() const {
-    return dynamic_cast<const CableSpringLaw&>(getLaw()).getRestLength();
-}
-Real CableSpringForce::getStiffness() const {
-    return dynamic_cast<const CableSpringLaw&>(getLaw()).getStiffness();
-}
-Real CableSpringForce::getDamping() const {
-    return dynamic_cast<const CableSpringLaw&>(getLaw()).getDamping();
-}
+ElasticStringForce::ElasticStringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, Real stiffness,
+                                       Real slackLength, Real damping)
+    : CableSpringBase(
+          forces, std::make_unique<ElasticStringLaw>(cable, CableSpringParameters{stiffness, slackLength, damping})) {}
+
+CableSpringForce::CableSpringForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, Real stiffness,
+                                   Real slackLength, Real damping)
+    : CableSpringBase(
+          forces, std::make_unique<CableSpringLaw>(cable, CableSpringParameters{stiffness, slackLength, damping})) {}
 
 PrescribedTensionForce::PrescribedTensionForce(SimTK::GeneralForceSubsystem& forces, const Cable& cable, Real tension)
     : CableForce(forces, std::make_unique<PrescribedTensionLaw>(cable, tension)) {}

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cable_impl.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "cable_subsystem_impl.h"
 #include "contact_event_handler.h"
 #include "tautline/error.h"
+#include "tautline/paths/contact_witness.h"
 #include "tautline/paths/path_explanation.h"
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/simbody/conversions.h"
@@ -38,45 +41,71 @@ ContactEvent::Kind toContactEventKind(PathEvent::Kind kind) {
     return ContactEvent::Kind::Slipped;
 }
 
+/** Whether two poses are the same, bit by bit. */
+bool isSamePose(const PathPose& a, const PathPose& b) {
+    if (a.X_GE.size() != b.X_GE.size() || a.isActive != b.isActive) return false;
+    for (std::size_t e = 0; e < a.X_GE.size(); ++e)
+        if (a.X_GE[e].p != b.X_GE[e].p || a.X_GE[e].R != b.X_GE[e].R) return false;
+    return true;
+}
+
+/** Whether any body may have come round once since the last accepted step. */
+bool mayHaveTurned(const BodyMotions& motions, Real time) {
+    if (SimTK::isNaN(motions.time)) return false;
+    const Real duration = std::abs(time - motions.time);
+    return std::any_of(motions.V_GB.begin(), motions.V_GB.end(),
+                       [&](const SpatialVec& V) { return V[0].norm() * duration > 1; });
+}
+
+/** Where nothing is smooth, calcContactWitness() says 1 or -1. */
+bool isSmoothWitness(const ObstacleContact& contact) {
+    return !contact.isSwitchedOff && !contact.hasLeftHole;
+}
+
 }  // namespace
 
 CableImpl::CableImpl(CableSubsystemImpl& cables, CableIndex index, std::string name)
-    : m_cables(cables),
-      m_index(index),
-      m_name(name.empty() ? "cable" + std::to_string(index) : std::move(name)),
-      m_elements(cables, m_name) {}
+    : m_cables(cables), m_index(index), m_name(std::move(name)), m_elements(cables, m_name) {}
 
 void CableImpl::setEnds(CableElement origin, CableElement insertion) {
     m_elements.setEnds(std::move(origin), std::move(insertion));
 }
 
 CableElementIndex CableImpl::insertElement(CableElement element) {
-    const bool isObstacle = element.surface != nullptr, isConditional = element.isActive != nullptr;
     const CableElementIndex index = m_elements.insert(std::move(element));
     m_cables.invalidateSubsystemTopologyCache();
-    SimTK::System& system = m_cables.updSystem();
-    if (isObstacle && !std::exchange(m_isStabilityWatched, true))
-        system.addEventHandler(new StabilityEventHandler(*this));
-    if (isObstacle) system.addEventHandler(new ContactEventHandler(*this, index));
-    if (isObstacle && !m_elements[index].surface->isConvex())
-        system.addEventHandler(new SplitEventHandler(*this, index));
-    if (isConditional) system.addEventHandler(new ConditionEventHandler(*this, index));
+    addHandlers(index);
     return index;
+}
+
+void CableImpl::setElement(CableElementIndex index, CableElement element) {
+    m_elements.replace(index, std::move(element));
+    m_cables.invalidateSubsystemTopologyCache();
+    addHandlers(index);
+}
+
+/** Those that an element needs and has not yet. */
+void CableImpl::addHandlers(CableElementIndex index) {
+    const CableElement& element = m_elements[index];
+    SimTK::System& system = m_cables.updSystem();
+    m_isSplitWatched.resize(m_elements.size());
+    m_isConditionWatched.resize(m_elements.size());
+    if (element.isActive && !m_isConditionWatched[index]) {
+        m_isConditionWatched[index] = true;
+        system.addEventHandler(new ConditionEventHandler(*this, index));
+    }
+    if (!element.surface) return;
+    if (!std::exchange(m_isWatched, true)) {
+        system.addEventHandler(new ContactEventHandler(*this));
+        system.addEventHandler(new BreachEventHandler(*this));
+    }
+    if (element.surface->isConvex() || m_isSplitWatched[index]) return;
+    m_isSplitWatched[index] = true;
+    system.addEventHandler(new SplitEventHandler(*this, index));
 }
 
 void CableImpl::setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station) {
     m_elements.setMovingEnd(isOrigin, std::move(station));
-    m_cables.invalidateSubsystemTopologyCache();
-}
-
-void CableImpl::setCondition(CableElementIndex obstacle, std::function<bool(const State&)> isActive) {
-    m_elements.setCondition(obstacle, std::move(isActive));
-    m_cables.invalidateSubsystemTopologyCache();
-    m_cables.updSystem().addEventHandler(new ConditionEventHandler(*this, obstacle));
-}
-
-void CableImpl::setHint(CableElementIndex obstacle, const StartHint& hint) {
-    m_elements.setHint(obstacle, hint);
     m_cables.invalidateSubsystemTopologyCache();
 }
 
@@ -87,66 +116,189 @@ void CableImpl::setOptions(const PathSolverOptions& options) {
 }
 
 void CableImpl::setDisabledByDefault(bool isDisabled) {
-    m_defaultMode.isDisabled = isDisabled;
+    m_isDisabledByDefault = isDisabled;
     m_cables.invalidateSubsystemTopologyCache();
 }
 
-void CableImpl::realizeTopology(State& state) {
+void CableImpl::setDefaultContactMode(ContactMode mode) {
+    m_defaultContactMode = mode;
+    m_cables.invalidateSubsystemTopologyCache();
+}
+
+CableMode CableImpl::getDefaultMode() const {
+    return {m_isDisabledByDefault, m_defaultContactMode.value_or(m_cables.getDefaultContactMode()), false};
+}
+
+void CableImpl::realizeTopology(CableWorkspaces& workspaces) {
     m_problem = m_elements.makeProblem();
-    m_state.allocate(m_cables, state, m_defaultMode, m_options);
+    m_workspaces = &workspaces;
 }
 
-void CableImpl::realizePosition(const State& state) const {
-    if (isDisabled(state)) return;
-    CablePath& path = m_state.updPath(state);
-    m_elements.calcPose(state, path.pose);
-    path.time = state.getTime();
-    solve(state, path);
+const CableMode& CableImpl::getMode(const State& state) const {
+    return m_cables.getStates().getMode(state, m_index);
+}
+
+bool CableImpl::keepsContacts(const State& state) const {
+    const CableMode& mode = getMode(state);
+    return !mode.isDisabled && mode.keepsContacts;
+}
+
+bool CableImpl::hasEvents(const State& state) const {
+    const CableMode& mode = getMode(state);
+    return !mode.isDisabled && mode.contacts == ContactMode::Events;
+}
+
+void CableImpl::realizePath(const State& state) const {
+    const CableStates& states = m_cables.getStates();
+    const CableMode& mode = states.getMode(state, m_index);
+    if (mode.isDisabled) return;
+    const ContactRule rule = mode.keepsContacts                      ? ContactRule::Kept
+                             : mode.contacts == ContactMode::Tracked ? ContactRule::Tracked
+                                                                     : ContactRule::Free;
+    const SharedPath& start = states.getStart(state, m_index);
+    SharedPath& path = states.updPath(state, m_index);
+    const CableWorkspaces::Loan workspace = m_workspaces->lend();
+    m_elements.calcPose(state, workspace->pose);
+    if (isKnown(state, path.get(), start.get(), rule, *workspace)) return;
+    if (isKnown(state, start.get(), start.get(), rule, *workspace)) {
+        path = start;
+        return;
+    }
+    CablePath& found = path.updScratch();
+    std::swap(found.pose, workspace->pose);
+    found.time = state.getTime();
+    found.rule = rule;
+    solve(state, start.get(), *workspace, found);
+}
+
+/** Whether a path is the answer of the workspace's pose, as the start of a solve or as what was found from it. A body
+that has come round to the same pose has wound the cable up all the same. */
+bool CableImpl::isKnown(const State& state, const CablePath& path, const CablePath& start, ContactRule rule,
+                        CableWorkspace& workspace) const {
+    if (path.serial == 0 || path.rule != rule) return false;
+    const bool isFromStart = path.startSerial == start.serial || path.serial == start.serial;
+    if (!isFromStart || !isSamePose(path.pose, workspace.pose)) return false;
+    return path.time == state.getTime() || !mayHaveTurned(m_cables.getStates().getStartMotions(state), state.getTime());
+}
+
+void CableImpl::solve(const State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    if (path.rule != ContactRule::Free) calcStartMotion(state, start, workspace.startMotion);
+    switch (path.rule) {
+        case ContactRule::Kept:
+            workspace.tracker.track(m_problem, start, workspace.startMotion, path);
+            break;
+        case ContactRule::Tracked:
+            workspace.tracker.trackFreely(m_problem, start, workspace.startMotion, path);
+            break;
+        case ContactRule::Free:
+            workspace.tracker.solveFrom(m_problem, start, path);
+            break;
+    }
+    if (path.pose.isFinite()) m_counters.countSolve(path.solution, Clock::now() - begin);
     calcUnitForces(path.solution, path.pose, path.forces);
-    m_state.markPathRealized(state);
+    path.serial = m_cables.makeSerial();
+    path.startSerial = start.serial;
+    path.wasSettled = false;
+    calcWitnesses(start, path);
 }
 
-/** Only a path that is continued asks how it moved before. */
-void CableImpl::realizeVelocity(const State& state) const {
-    const CableMode& mode = m_state.getMode(state);
-    if (!mode.isDisabled && mode.keepsContacts) realizeMotion(state);
-}
-
-void CableImpl::realizeMotion(const State& state) const {
-    if (m_state.isMotionRealized(state)) return;
-    PathMotion& motion = m_state.updMotion(state);
-    motion.time = state.getTime();
-    m_elements.calcVelocities(state, motion.V_GE);
-    m_state.markMotionRealized(state);
-}
-
-const PathMotion& CableImpl::getMotion(const State& state) const {
-    realizeMotion(state);
-    return m_state.getMotion(state);
+void CableImpl::calcWitnesses(const CablePath& start, CablePath& path) const {
+    path.contactWitness = path.stabilityWitness = path.breachWitness = 1;
+    if (path.rule != ContactRule::Kept) return;
+    for (int e = 0; e < m_elements.size(); ++e) {
+        if (!m_elements[e].surface) continue;
+        const Real witness = calcContactWitness(m_problem, path.solution, e);
+        path.contactWitness = std::min(path.contactWitness, witness);
+        if (isSmoothWitness(path.solution.contacts[e])) path.breachWitness = std::min(path.breachWitness, witness);
+    }
+    path.stabilityWitness = PathTracker::calcStabilityWitness(m_problem, start, path);
 }
 
 void CableImpl::setDisabled(State& state, bool isDisabled) const {
-    CableMode mode = m_state.getMode(state);
+    const CableStates& states = m_cables.getStates();
     // What it touched when it was disabled says nothing of where it is now.
-    if (mode.isDisabled && !isDisabled) m_state.updStart(state) = CablePath();
-    mode.isDisabled = isDisabled;
-    m_state.setMode(state, mode);
+    if (getMode(state).isDisabled && !isDisabled) states.updStart(state, m_index) = SharedPath();
+    states.updMode(state, m_index).isDisabled = isDisabled;
+}
+
+void CableImpl::setContactMode(State& state, ContactMode mode) const {
+    CableMode& changed = m_cables.getStates().updMode(state, m_index);
+    if (changed.contacts != mode) changed.keepsContacts = false;
+    changed.contacts = mode;
 }
 
 const PathSolution& CableImpl::getPath(const State& state, const char* method) const {
     m_cables.ensureStage(state, Stage::Position, method);
     SimTK_ERRCHK1_ALWAYS(!isDisabled(state), method, "cable '%s' is disabled in this State", m_name.c_str());
-    // A study's swap leaves the path unrealized at a stage beyond Position.
-    if (!m_state.isPathRealized(state)) realizePosition(state);
-    return m_state.getPath(state).solution;
+    // A study's swap leaves the paths unrealized at a stage beyond Position.
+    m_cables.realizePaths(state);
+    return getCablePath(state).solution;
+}
+
+const CablePath& CableImpl::getCablePath(const State& state) const {
+    return m_cables.getStates().getPath(state, m_index).get();
+}
+
+const std::vector<StraightSegment>& CableImpl::getSegments(const State& state, const char* method) const {
+    const PathSolution& path = getPath(state, method);
+    SimTK_ERRCHK1_ALWAYS(!path.segments.empty(), method, "the pose of cable '%s' is not finite", m_name.c_str());
+    return path.segments;
+}
+
+std::vector<SimTK::Vec3> CableImpl::calcResampledArc(const State& state, CableElementIndex obstacle, int count) const {
+    const ObstacleContact& contact = getPath(state, "Cable::calcResampledArc()").contacts[obstacle];
+    require(count >= 2, "cable '", m_name, "': an arc is resampled to at least 2 points, not to ", count);
+    require(contact.isTouched, "cable '", m_name, "': obstacle '", m_elements[obstacle].name,
+            "' is not touched, there is no arc to resample");
+    std::vector<Vec3> arc_S;
+    sampleGeodesic(*m_elements[obstacle].surface, contact.start, m_options.geodesics, count, arc_S);
+    std::vector<SimTK::Vec3> points_G;
+    for (const Vec3& p_S : arc_S) points_G.push_back(toSimTK(getPose(state).X_GE[obstacle] * p_S));
+    return points_G;
+}
+
+std::vector<SimTK::Vec3> CableImpl::calcResampledPoints(const State& state, int count) const {
+    const char* const method = "Cable::calcResampledPoints()";
+    const std::vector<StraightSegment>& segments = getSegments(state, method);
+    require(count >= 2, "cable '", m_name, "': a path is resampled to at least 2 points, not to ", count);
+    const PathSolution& path = getPath(state, method);
+    std::vector<SimTK::Vec3> points_G;
+    Real passed = 0;  // length before the present piece
+    // All points up to the end of a piece that are not there yet.
+    const auto addPoints = [&](Real length, const auto& calcPoint) {
+        const Real step = path.length / (count - 1);
+        for (; static_cast<int>(points_G.size()) < count - 1;
+             points_G.push_back(calcPoint(Real(points_G.size()) * step - passed)))
+            if (!(Real(points_G.size()) * step < passed + length)) break;
+        passed += length;
+    };
+    for (const StraightSegment& line : segments) {
+        addPoints(line.length, [&](Real s) { return toSimTK(Vec3(line.A + s * line.e)); });
+        const ObstacleContact& contact = path.contacts[line.toElement];
+        if (!m_elements[line.toElement].surface || !(contact.start.length > 0)) continue;
+        addPoints(contact.start.length, [&](Real s) {
+            GeodesicStart part = contact.start;
+            part.length = s;
+            Geodesic arc;
+            m_elements[line.toElement].surface->shootGeodesic(part, m_options.geodesics, arc);
+            return toSimTK(getPose(state).X_GE[line.toElement] * arc.Q.x);
+        });
+    }
+    points_G.resize(count - 1, toSimTK(segments.back().B));
+    points_G.push_back(toSimTK(segments.back().B));
+    return points_G;
 }
 
 Real CableImpl::getLengthRate(const State& state) const {
     m_cables.ensureStage(state, Stage::Velocity, "Cable::getLengthRate()");
     const PathSolution& path = getPath(state, "Cable::getLengthRate()");
-    if (!m_state.isRateRealized(state))
-        m_state.setRate(state, calcLengthRate(path, getPose(state), getMotion(state).V_GE));
-    return m_state.getRate(state);
+    Real& rate = m_cables.getStates().updRate(state, m_index);
+    if (!SimTK::isNaN(rate)) return rate;
+    const CableWorkspaces::Loan workspace = m_workspaces->lend();
+    m_elements.calcVelocities(state, workspace->V_GE);
+    return rate = calcLengthRate(path, getPose(state), workspace->V_GE);
 }
 
 Real CableImpl::getLengthAccelerationBias(const State& state) const {
@@ -155,21 +307,22 @@ Real CableImpl::getLengthAccelerationBias(const State& state) const {
     SimTK_ERRCHK1_ALWAYS(!m_elements.hasMovingPoints(), method, "cable '%s' has moving or conditional points",
                          m_name.c_str());
     getPath(state, method);
-    if (!m_state.isBiasRealized(state))
-        m_state.setBias(state, calcLengthAccelerationBias(state, m_state.getPath(state)));
-    return m_state.getBias(state);
+    Real& bias = m_cables.getStates().updBias(state, m_index);
+    if (SimTK::isNaN(bias)) bias = calcLengthAccelerationBias(state, getCablePath(state));
+    return bias;
 }
 
 /** Of dL/dt = -sum (F . v + M . w) over the elements' origins E: the rates of the unit forces, and the acceleration of
 E that turning alone gives it. On the verge of instability, where the forces' rates are without bound, that alone. */
 Real CableImpl::calcLengthAccelerationBias(const State& state, const CablePath& path) const {
-    CableWorkspace& workspace = m_state.updWorkspace(state);
-    const std::vector<SpatialVelocity>& V_GE = getMotion(state).V_GE;
-    workspace.sensitivity.setPath(m_problem, path.pose, path.solution);
-    workspace.sensitivity.calcVariation(V_GE, workspace.variation);
+    const CableWorkspaces::Loan workspace = m_workspaces->lend();
+    std::vector<SpatialVelocity>& V_GE = workspace->V_GE;
+    m_elements.calcVelocities(state, V_GE);
+    workspace->sensitivity.setPath(m_problem, path.pose, path.solution);
+    workspace->sensitivity.calcVariation(V_GE, workspace->variation);
     Real bias = 0;
     for (int e = 0; e < m_elements.size(); ++e) {
-        const SpatialForce &F = path.forces[e], &FRate = workspace.variation.forceRate[e];
+        const SpatialForce &F = path.forces[e], &FRate = workspace->variation.forceRate[e];
         const SpatialVelocity& V = V_GE[e];
         const Vec3 centripetal = m_elements.calcCentripetalAcceleration(state, e, V.w);
         bias -= FRate.force.dot(V.v) + FRate.moment.dot(V.w) + F.force.dot(centripetal);
@@ -179,20 +332,29 @@ Real CableImpl::calcLengthAccelerationBias(const State& state, const CablePath& 
 
 Real CableImpl::calcWitness(const State& state, CableElementIndex obstacle) const {
     const PathSolution& path = getPath(state, "Cable::getWitness()");
-    if (!m_state.getMode(state).keepsContacts) return 1;
-    return calcContactWitness(m_problem, path, obstacle);
+    return areContactsFixed(state) ? calcContactWitness(m_problem, path, obstacle) : 1;
 }
 
 Real CableImpl::calcSplitWitness(const State& state, CableElementIndex obstacle) const {
     const PathSolution& path = getPath(state, "Cable::calcSplitWitness()");
-    if (!m_state.getMode(state).keepsContacts) return 1;
-    return tautline::calcSplitWitness(m_problem, getPose(state), path, obstacle);
+    return areContactsFixed(state) ? tautline::calcSplitWitness(m_problem, getPose(state), path, obstacle) : 1;
 }
 
-Real CableImpl::calcStabilityWitness(const State& state) const {
-    getPath(state, "StabilityEventHandler::getValue()");
-    if (!m_state.getMode(state).keepsContacts) return 1;
-    return PathTracker::calcStabilityWitness(m_problem, m_state.getStart(state), m_state.getPath(state));
+const CablePath* CableImpl::findKeptPath(const State& state) const {
+    m_cables.ensureStage(state, Stage::Position, "cable event handler");
+    if (!keepsContacts(state)) return nullptr;
+    m_cables.realizePaths(state);
+    return &getCablePath(state);
+}
+
+bool CableImpl::isHolding(const CablePath& path) const {
+    return path.contactWitness > -BreachEventHandler::kDeepest && path.stabilityWitness > 0;
+}
+
+bool CableImpl::isUnsettled(const State& state) const {
+    if (!keepsContacts(state)) return false;
+    const CablePath& path = getCablePath(state);
+    return !isHolding(path) && !path.wasSettled;
 }
 
 void CableImpl::reportSplit(const State& state, CableElementIndex obstacle) const {
@@ -204,7 +366,7 @@ void CableImpl::reportSplit(const State& state, CableElementIndex obstacle) cons
 
 const std::vector<SpatialForce>& CableImpl::getElementForces(const State& state, const char* method) const {
     getPath(state, method);
-    return m_state.getPath(state).forces;
+    return getCablePath(state).forces;
 }
 
 void CableImpl::addBodyForces(const State& state, Real tension, SimTK::Vector_<SpatialVec>& bodyForces,
@@ -218,72 +380,86 @@ void CableImpl::addMobilityForces(const State& state, Real tension, SimTK::Vecto
     m_elements.addMobilityForces(state, getElementForces(state, method), tension, mobilityForces);
 }
 
-void CableImpl::solve(const State& state, CablePath& path) const {
-    using Clock = std::chrono::steady_clock;
-    PathTracker& tracker = m_state.updWorkspace(state).tracker;
-    const Clock::time_point begin = Clock::now();
-    if (m_state.getMode(state).keepsContacts)
-        tracker.track(m_problem, m_state.getStart(state), m_state.getStartMotion(state), path);
-    else
-        tracker.solve(m_problem, path);
-    if (path.pose.isFinite()) m_counters.countSolve(path.solution, Clock::now() - begin);
-}
-
 TrackedPath CableImpl::calcSettledPath(const State& state) const {
     getPath(state, "Cable::fixContacts()");
-    TrackedPath path = m_state.getPath(state);
-    m_state.updWorkspace(state).tracker.settle(m_problem, path);
+    TrackedPath path = getCablePath(state);
+    m_workspaces->lend()->tracker.settle(m_problem, path);
     return path;
 }
 
 void CableImpl::keepContacts(State& state, const TrackedPath& path) const {
-    CableMode mode = m_state.getMode(state);
+    CableMode& mode = m_cables.getStates().updMode(state, m_index);
+    mode.contacts = ContactMode::Events;
     mode.keepsContacts = true;
-    m_state.setMode(state, mode);
     setStart(state, path);
 }
 
+/** A path whose pose is known is the answer at that pose. */
 void CableImpl::setStart(State& state, const TrackedPath& path) const {
-    static_cast<TrackedPath&>(m_state.updStart(state)) = path;
+    CablePath& start = m_cables.getStates().updStart(state, m_index).updScratch();
+    static_cast<TrackedPath&>(start) = path;
+    start.rule = ContactRule::Kept;
+    start.serial = m_cables.makeSerial();
+    start.startSerial = 0;
+    start.wasSettled = true;
+    start.forces.clear();
+    if (path.pose.X_GE.empty()) return;
+    calcUnitForces(start.solution, start.pose, start.forces);
+    calcWitnesses(start, start);
 }
 
 void CableImpl::releaseContacts(State& state) const {
-    CableMode mode = m_state.getMode(state);
-    mode.keepsContacts = false;
-    m_state.setMode(state, mode);
+    m_cables.getStates().updMode(state, m_index).keepsContacts = false;
+}
+
+void CableImpl::handleBrokenContacts(State& state) const {
+    if (!keepsContacts(state)) return;
+    m_cables.getSystem().realize(state, Stage::Position);
+    getPath(state, "SettlingEventHandler::handleEvent()");
+    if (isUnsettled(state)) handleContactEvent(state);
 }
 
 void CableImpl::handleContactEvent(State& state) const {
-    const CableMode& mode = m_state.getMode(state);
-    if (mode.isDisabled || !mode.keepsContacts) return;
+    if (!keepsContacts(state)) return;
     m_cables.getSystem().realize(state, Stage::Velocity);
     getPath(state, "ContactEventHandler::handleEvent()");
+    const CableStates& states = m_cables.getStates();
+    const SharedPath start = states.getStart(state, m_index);
     const TrackedPath before = calcPathBeforeSwitch(state);
-    const PathMotion motion = getMotion(state);
-    TrackedPath after = m_state.getPath(state);
-    const std::vector<PathEvent> events =
-        m_state.updWorkspace(state).tracker.resolveEvent(m_problem, m_state.getStart(state), after);
+    std::vector<SpatialVelocity> V_GE;
+    m_elements.calcVelocities(state, V_GE);
+    TrackedPath after = getCablePath(state);
+    const std::vector<PathEvent> events = m_workspaces->lend()->tracker.resolveEvent(m_problem, start.get(), after);
+    after.time = state.getTime();
+    m_cables.acceptHoldingPaths(state);
     setStart(state, after);
-    m_state.updStartMotion(state) = motion;
-    report(events, before.solution, after, motion);
+    report(events, before.solution, after, V_GE);
 }
 
 /** The path of this state as if the conditions of points and obstacles still were those of the step's start: what it
 was just before they changed. */
 TrackedPath CableImpl::calcPathBeforeSwitch(const State& state) const {
-    const TrackedPath& start = m_state.getStart(state);
-    const TrackedPath& path = m_state.getPath(state);
+    const TrackedPath& start = m_cables.getStates().getStart(state, m_index).get();
+    const TrackedPath& path = getCablePath(state);
     if (start.solution.isEmpty() || start.pose.isActive == path.pose.isActive) return path;
     TrackedPath before = path;
     before.pose.isActive = start.pose.isActive;
-    m_state.updWorkspace(state).tracker.track(m_problem, start, m_state.getStartMotion(state), before);
+    const CableWorkspaces::Loan workspace = m_workspaces->lend();
+    calcStartMotion(state, start, workspace->startMotion);
+    workspace->tracker.track(m_problem, start, workspace->startMotion, before);
     return before.solution.status == PathStatus::NotConverged ? path : before;
 }
 
+void CableImpl::calcStartMotion(const State& state, const TrackedPath& start, PathMotion& motion) const {
+    const BodyMotions& motions = m_cables.getStates().getStartMotions(state);
+    motion.time = motions.time;
+    m_elements.calcVelocities(start.pose, motions.V_GB, motion.V_GE);
+}
+
 void CableImpl::report(const std::vector<PathEvent>& events, const PathSolution& before, const TrackedPath& after,
-                       const PathMotion& motion) const {
-    const Real rateBefore = calcLengthRate(before, after.pose, motion.V_GE);
-    const Real rateAfter = calcLengthRate(after.solution, after.pose, motion.V_GE);
+                       const std::vector<SpatialVelocity>& V_GE) const {
+    const Real rateBefore = calcLengthRate(before, after.pose, V_GE);
+    const Real rateAfter = calcLengthRate(after.solution, after.pose, V_GE);
     for (const PathEvent& event : events) {
         m_counters.countEvent(event.kind);
         if (!m_listener) continue;
@@ -294,14 +470,13 @@ void CableImpl::report(const std::vector<PathEvent>& events, const PathSolution&
 
 PathStatus CableImpl::calcStatus(const State& state) const {
     const PathSolution& path = getPath(state, "Cable::calcStatus()");
-    if (!m_state.getMode(state).keepsContacts) return path.status;
-    return PathTracker::calcStatus(m_problem, m_state.getPath(state));
+    return areContactsFixed(state) ? PathTracker::calcStatus(m_problem, getCablePath(state)) : path.status;
 }
 
 std::string CableImpl::explainStatus(const State& state) const {
     const PathSolution& path = getPath(state, "Cable::explainStatus()");
-    if (!m_state.getMode(state).keepsContacts) return tautline::explainStatus(m_problem, getPose(state), path);
-    return PathTracker::explainStatus(m_problem, m_state.getPath(state));
+    return areContactsFixed(state) ? PathTracker::explainStatus(m_problem, getCablePath(state))
+                                   : tautline::explainStatus(m_problem, getPose(state), path);
 }
 
 void CableImpl::countStep(const State& state) const {

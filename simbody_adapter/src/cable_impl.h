@@ -3,12 +3,14 @@
 #include <Simbody.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cable_counters.h"
 #include "cable_elements.h"
-#include "cable_path_state.h"
+#include "cable_states.h"
+#include "cable_workspaces.h"
 #include "tautline/simbody/cable.h"
 
 namespace tautline {
@@ -22,38 +24,55 @@ public:
     void setEnds(CableElement origin, CableElement insertion);
     CableElementIndex insertElement(CableElement element);
     void setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station);
-    void setCondition(CableElementIndex obstacle, std::function<bool(const SimTK::State&)> isActive);
-    void setHint(CableElementIndex obstacle, const StartHint& hint);
     void setOptions(const PathSolverOptions& options);
     void setDisabledByDefault(bool isDisabled);
+    void setDefaultContactMode(ContactMode mode);
+    void setElement(CableElementIndex index, CableElement element);
     void setListener(std::function<void(const ContactEvent&)> listener) { m_listener = std::move(listener); }
 
     const std::string& getName() const { return m_name; }
     CableIndex getIndex() const { return m_index; }
     const CableSubsystemImpl& getSubsystemImpl() const { return m_cables; }
     const PathSolverOptions& getOptions() const { return m_options; }
-    bool isDisabledByDefault() const { return m_defaultMode.isDisabled; }
+    bool isDisabledByDefault() const { return m_isDisabledByDefault; }
+    /** With that of the subsystem where the cable has none of its own. */
+    CableMode getDefaultMode() const;
     const CableElements& getElements() const { return m_elements; }
 
-    void realizeTopology(SimTK::State& state);
-    void realizePosition(const SimTK::State& state) const;
-    void realizeVelocity(const SimTK::State& state) const;
+    void realizeTopology(CableWorkspaces& workspaces);
+    /** The path of this pose, solved only if it is not known already. */
+    void realizePath(const SimTK::State& state) const;
 
-    const CablePathState& getPathState() const { return m_state; }
-    bool isDisabled(const SimTK::State& state) const { return m_state.getMode(state).isDisabled; }
+    bool isDisabled(const SimTK::State& state) const { return getMode(state).isDisabled; }
     void setDisabled(SimTK::State& state, bool isDisabled) const;
+    ContactMode getContactMode(const SimTK::State& state) const { return getMode(state).contacts; }
+    void setContactMode(SimTK::State& state, ContactMode mode) const;
+    bool areContactsFixed(const SimTK::State& state) const { return getMode(state).keepsContacts; }
+    /** Fixed, and the cable not disabled. */
+    bool keepsContacts(const SimTK::State& state) const;
+    /** A study that begins fixes the contacts of such a cable. */
+    bool hasEvents(const SimTK::State& state) const;
 
     /** @param method   of the API, for the message if the state is not realized to Position */
     const PathSolution& getPath(const SimTK::State& state, const char* method) const;
     /** Of getPath(), which must have been asked for before. */
-    const PathPose& getPose(const SimTK::State& state) const { return m_state.getPath(state).pose; }
+    const PathPose& getPose(const SimTK::State& state) const { return getCablePath(state).pose; }
     const PathProblem& getProblem() const { return m_problem; }
+    /** Never none. @throws what getPath() throws, and an error in a pose that is not finite, where no path is */
+    const std::vector<StraightSegment>& getSegments(const SimTK::State& state, const char* method) const;
+    std::vector<SimTK::Vec3> calcResampledPoints(const SimTK::State& state, int count) const;
+    std::vector<SimTK::Vec3> calcResampledArc(const SimTK::State& state, CableElementIndex obstacle, int count) const;
     SimTK::Real getLengthRate(const SimTK::State& state) const;
     SimTK::Real getLengthAccelerationBias(const SimTK::State& state) const;
     SimTK::Real calcWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     SimTK::Real calcSplitWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     void reportSplit(const SimTK::State& state, CableElementIndex obstacle) const;
-    SimTK::Real calcStabilityWitness(const SimTK::State& state) const;
+    /** For event finders: null where contacts are not kept, or the cable is disabled. */
+    const CablePath* findKeptPath(const SimTK::State& state) const;
+    /** Whether the contacts of a path that keeps them fit its pose, as far as an event finder tells. */
+    bool isHolding(const CablePath& path) const;
+    /** Whether the contacts that are kept do not fit the realized pose, and nobody has tried to settle them there. */
+    bool isUnsettled(const SimTK::State& state) const;
     /** About element origins, in ground. */
     const std::vector<SpatialForce>& getElementForces(const SimTK::State& state, const char* method) const;
     void addBodyForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector_<SimTK::SpatialVec>& bodyForces,
@@ -66,6 +85,8 @@ public:
     void keepContacts(SimTK::State& state, const TrackedPath& path) const;
     void releaseContacts(SimTK::State& state) const;
     void handleContactEvent(SimTK::State& state) const;
+    /** The same where contacts do not fit the pose; else nothing. */
+    void handleBrokenContacts(SimTK::State& state) const;
 
     /** With all conditions judged, contacts fixed or not. */
     PathStatus calcStatus(const SimTK::State& state) const;
@@ -76,27 +97,35 @@ public:
     void resetStatistics() const { m_counters.reset(); }
 
 private:
+    const CableMode& getMode(const SimTK::State& state) const;
+    /** Realized. */
+    const CablePath& getCablePath(const SimTK::State& state) const;
+    bool isKnown(const SimTK::State& state, const CablePath& path, const CablePath& start, ContactRule rule,
+                 CableWorkspace& workspace) const;
+    void solve(const SimTK::State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
+    void calcWitnesses(const CablePath& start, CablePath& path) const;
+    void addHandlers(CableElementIndex index);
     SimTK::Real calcLengthAccelerationBias(const SimTK::State& state, const CablePath& path) const;
-    void solve(const SimTK::State& state, CablePath& path) const;
-    void realizeMotion(const SimTK::State& state) const;
-    /** Stage: Velocity, of the cables too. */
-    const PathMotion& getMotion(const SimTK::State& state) const;
     void setStart(SimTK::State& state, const TrackedPath& path) const;
     TrackedPath calcPathBeforeSwitch(const SimTK::State& state) const;
+    void calcStartMotion(const SimTK::State& state, const TrackedPath& start, PathMotion& motion) const;
     void report(const std::vector<PathEvent>& events, const PathSolution& before, const TrackedPath& after,
-                const PathMotion& motion) const;
+                const std::vector<SpatialVelocity>& V_GE) const;
 
     CableSubsystemImpl& m_cables;
     CableIndex m_index;
     std::string m_name;
     CableElements m_elements;
     PathSolverOptions m_options;
-    CableMode m_defaultMode;
-    bool m_isStabilityWatched = false;  ///< one event handler for all obstacles
+    bool m_isDisabledByDefault = false;
+    std::optional<ContactMode> m_defaultContactMode;  ///< none: that of the subsystem
+    bool m_isWatched = false;                         ///< the handlers of all obstacles have been added
+    std::vector<bool> m_isConditionWatched;           ///< by element: the handler of its condition has been added
+    std::vector<bool> m_isSplitWatched;               ///< by element: so has the one of a surface that is not convex
     std::function<void(const ContactEvent&)> m_listener;
 
-    PathProblem m_problem;  ///< built at Topology
-    CablePathState m_state;
+    PathProblem m_problem;                    ///< built at Topology
+    CableWorkspaces* m_workspaces = nullptr;  ///< at Topology, from the subsystem
     mutable CableCounters m_counters;
 };
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tautline/simbody/cable_subsystem.h"
 
+#include <algorithm>
+
 #include "cable_subsystem_impl.h"
+#include "contact_event_handler.h"
 #include "tautline/error.h"
+#include "tautline/simbody/cable_decorations.h"
 
 namespace tautline {
 
@@ -12,6 +16,7 @@ using SimTK::State;
 CableSubsystem::CableSubsystem(SimTK::MultibodySystem& system) {
     adoptSubsystemGuts(new CableSubsystemImpl());
     system.adoptSubsystem(*this);
+    system.addEventHandler(new SettlingEventHandler(getImpl()));
 }
 
 int CableSubsystem::getNumCables() const {
@@ -27,8 +32,36 @@ Cable& CableSubsystem::updCable(CableIndex cable) {
     return updImpl().updCable(cable);
 }
 
+const Cable& CableSubsystem::getCable(const std::string& name) const {
+    return const_cast<CableSubsystemImpl&>(getImpl()).updCable(name);
+}
+
 const SimTK::MultibodySystem& CableSubsystem::getMultibodySystem() const {
     return getImpl().getMultibodySystem();
+}
+
+void CableSubsystem::setDefaultContactMode(ContactMode mode) {
+    updImpl().setDefaultContactMode(mode);
+}
+
+ContactMode CableSubsystem::getDefaultContactMode() const {
+    return getImpl().getDefaultContactMode();
+}
+
+void CableSubsystem::setContactMode(State& state, ContactMode mode) const {
+    for (CableIndex c(0); c < getNumCables(); ++c) getCable(c).setContactMode(state, mode);
+}
+
+void CableSubsystem::acceptPaths(State& state) const {
+    getImpl().acceptPaths(state);
+}
+
+void CableSubsystem::setShowDecorations(bool shows) {
+    updImpl().setShowDecorations(shows);
+}
+
+bool CableSubsystem::getShowDecorations() const {
+    return getImpl().getShowDecorations();
 }
 
 void CableSubsystem::countStep(const State& state) const {
@@ -43,6 +76,19 @@ const CableSubsystemImpl& CableSubsystem::getImpl() const {
     return dynamic_cast<const CableSubsystemImpl&>(getSubsystemGuts());
 }
 
+namespace {
+
+bool haveSameOptions(const PathSolverOptions& a, const PathSolverOptions& b) {
+    return a.pathErrorTolerance == b.pathErrorTolerance && a.maxIterations == b.maxIterations &&
+           a.allowsColdStart == b.allowsColdStart && a.geodesics.accuracy == b.geodesics.accuracy &&
+           a.geodesics.maxSteps == b.geodesics.maxSteps;
+}
+
+}  // namespace
+
+CableSubsystemImpl::CableSubsystemImpl() : Guts("CableSubsystem", "0.1.0") {}
+CableSubsystemImpl::~CableSubsystemImpl() = default;
+
 const SimTK::MultibodySystem& CableSubsystemImpl::getMultibodySystem() const {
     return SimTK::MultibodySystem::downcast(getSystem());
 }
@@ -53,6 +99,9 @@ const SimTK::SimbodyMatterSubsystem& CableSubsystemImpl::getMatter() const {
 
 CableImpl& CableSubsystemImpl::addCable(std::string name) {
     const CableIndex index(getNumCables());
+    if (name.empty()) name = "cable" + std::to_string(index);
+    for (const std::unique_ptr<CableImpl>& cable : m_impls)
+        require(cable->getName() != name, "cable subsystem: there is a cable '", name, "' already");
     m_impls.push_back(std::make_unique<CableImpl>(*this, index, std::move(name)));
     m_handles.push_back(Cable(m_impls.back().get()));
     invalidateSubsystemTopologyCache();
@@ -63,6 +112,17 @@ Cable& CableSubsystemImpl::updCable(CableIndex cable) {
     require(cable.isValid() && cable < getNumCables(), "cable subsystem: no cable ", static_cast<int>(cable), " of ",
             getNumCables());
     return m_handles[cable];
+}
+
+Cable& CableSubsystemImpl::updCable(const std::string& name) {
+    for (const std::unique_ptr<CableImpl>& cable : m_impls)
+        if (cable->getName() == name) return m_handles[cable->getIndex()];
+    throw InvalidInput("cable subsystem: no cable '" + name + "'");
+}
+
+void CableSubsystemImpl::setDefaultContactMode(ContactMode mode) {
+    m_defaultContactMode = mode;
+    invalidateSubsystemTopologyCache();
 }
 
 void CableSubsystemImpl::ensureStage(const State& state, Stage stage, const char* method) const {
@@ -79,18 +139,98 @@ CableSubsystemImpl* CableSubsystemImpl::cloneImpl() const {
     throw InvalidInput("cable subsystem: a system with cables cannot be copied");
 }
 
+/** Cables with the same options share their workspaces. */
 int CableSubsystemImpl::realizeSubsystemTopologyImpl(State& state) const {
-    for (const std::unique_ptr<CableImpl>& cable : m_impls) cable->realizeTopology(state);
+    auto& self = const_cast<CableSubsystemImpl&>(*this);  // the topology is what Simbody caches in the System itself
+    self.m_workspaces.clear();
+    std::vector<CableMode> modes;
+    for (const std::unique_ptr<CableImpl>& cable : m_impls) {
+        const PathSolverOptions& options = cable->getOptions();
+        auto found = std::find_if(m_workspaces.begin(), m_workspaces.end(), [&](const auto& workspaces) {
+            return haveSameOptions(workspaces->getOptions(), options);
+        });
+        if (found == m_workspaces.end())
+            found = self.m_workspaces.insert(m_workspaces.end(), std::make_unique<CableWorkspaces>(options));
+        cable->realizeTopology(**found);
+        modes.push_back(cable->getDefaultMode());
+    }
+    self.m_states.allocate(*this, state, std::move(modes));
     return 0;
 }
 
 int CableSubsystemImpl::realizeSubsystemPositionImpl(const State& state) const {
-    for (const std::unique_ptr<CableImpl>& cable : m_impls) cable->realizePosition(state);
+    realizePaths(state);
     return 0;
 }
 
 int CableSubsystemImpl::realizeSubsystemVelocityImpl(const State& state) const {
-    for (const std::unique_ptr<CableImpl>& cable : m_impls) cable->realizeVelocity(state);
+    realizeMotions(state);
+    return 0;
+}
+
+void CableSubsystemImpl::realizePaths(const State& state) const {
+    if (m_states.arePathsRealized(state)) return;
+    for (const std::unique_ptr<CableImpl>& cable : m_impls) cable->realizePath(state);
+    m_states.markPathsRealized(state);
+}
+
+void CableSubsystemImpl::realizeMotions(const State& state) const {
+    if (m_states.areMotionsRealized(state)) return;
+    BodyMotions& motions = m_states.updMotions(state);
+    const SimTK::SimbodyMatterSubsystem& matter = getMatter();
+    motions.time = state.getTime();
+    motions.V_GB.resize(matter.getNumBodies());
+    for (SimTK::MobilizedBodyIndex b(0); b < matter.getNumBodies(); ++b)
+        motions.V_GB[b] = matter.getMobilizedBody(b).getBodyVelocity(state);
+    m_states.markMotionsRealized(state);
+}
+
+void CableSubsystemImpl::acceptPaths(State& state) const {
+    ensureStage(state, Stage::Position, "CableSubsystem::acceptPaths()");
+    realizePaths(state);
+    startFrom(m_states.getPaths(state), state, [](const CableImpl&, const CablePath&) { return true; });
+}
+
+void CableSubsystemImpl::acceptHoldingPaths(State& state) const {
+    realizePaths(state);
+    const BodyMotions motions = m_states.getMotions(state);
+    startFrom(m_states.getPaths(state), state,
+              [](const CableImpl& cable, const CablePath& path) { return cable.isHolding(path); });
+    m_states.updStartMotions(state) = motions;
+}
+
+/** @param paths   by value: they become invalid with the first that is taken over */
+template <class Predicate>
+void CableSubsystemImpl::startFrom(std::vector<SharedPath> paths, State& state, Predicate isTaken) const {
+    std::vector<SharedPath>& starts = m_states.updStarts(state);
+    for (std::size_t i = 0; i < m_impls.size(); ++i)
+        if (!m_impls[i]->isDisabled(state) && isTaken(*m_impls[i], paths[i].get())) starts[i] = paths[i];
+}
+
+bool CableSubsystemImpl::needsSettling(const State& state) const {
+    const auto keepsContacts = [&](const std::unique_ptr<CableImpl>& cable) { return cable->keepsContacts(state); };
+    if (std::none_of(m_impls.begin(), m_impls.end(), keepsContacts)) return false;
+    if (!m_states.arePathsRealized(state)) m_states.updChangeTime(state) = state.getTime();
+    if (m_states.updChangeTime(state) != state.getTime()) return false;
+    getSystem().realize(state, Stage::Position);
+    realizePaths(state);
+    return std::any_of(m_impls.begin(), m_impls.end(),
+                       [&](const std::unique_ptr<CableImpl>& cable) { return cable->isUnsettled(state); });
+}
+
+void CableSubsystemImpl::settle(State& state) const {
+    for (const std::unique_ptr<CableImpl>& cable : m_impls) cable->handleBrokenContacts(state);
+}
+
+/** Simbody asks at each stage for what is known then. */
+int CableSubsystemImpl::calcDecorativeGeometryAndAppendImpl(const State& state, Stage stage,
+                                                            SimTK::Array_<SimTK::DecorativeGeometry>& geometry) const {
+    if (!m_showsDecorations || stage != Stage::Position) return 0;
+    // The System's own handle is a plain Subsystem; ours adds no data to it.
+    if (!m_decorations)
+        m_decorations =
+            std::make_unique<CableDecorations>(static_cast<const CableSubsystem&>(getOwnerSubsystemHandle()));
+    m_decorations->generateDecorations(state, geometry);
     return 0;
 }
 
@@ -108,7 +248,7 @@ void CableSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause caus
     // All paths first: each change of the State below would have the free ones solved anew.
     std::vector<TrackedPath> paths(m_impls.size());
     for (std::size_t i = 0; i < m_impls.size(); ++i)
-        if (!m_impls[i]->isDisabled(state)) paths[i] = m_impls[i]->calcSettledPath(state);
+        if (m_impls[i]->hasEvents(state)) paths[i] = m_impls[i]->calcSettledPath(state);
     for (std::size_t i = 0; i < m_impls.size(); ++i)
         if (!paths[i].solution.isEmpty() && paths[i].solution.status != PathStatus::NotConverged)
             m_impls[i]->keepContacts(state, paths[i]);

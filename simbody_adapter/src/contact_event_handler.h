@@ -6,40 +6,69 @@
 
 namespace tautline {
 
-/** Watches a cable at Stage::Position, by default for a witness that falls through zero, and then settles its contacts.
+/** Watches all contacts of a cable at once at Stage::Position, and whether the path as a whole still holds: that it can
+be found with its contacts kept, and is no saddle. The lowest of these witnesses, which were computed with the path.
+(One for all cables would cost a copy of a State less, and event finding more: it has a kink wherever another cable's is
+the lowest.)
+
 Added to the System, not allocated in the CableSubsystem: Simbody 3.7 mixes up the witnesses of a subsystem of one's own
 with those of a user's handlers at later stages. */
-class CableEventHandler : public SimTK::TriggeredEventHandler {
+class ContactEventHandler : public SimTK::TriggeredEventHandler {
 public:
-    explicit CableEventHandler(const CableImpl& cable);
+    explicit ContactEventHandler(const CableImpl& cable);
+    SimTK::Real getValue(const SimTK::State& state) const override;
     void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
 
-protected:
+private:
     const CableImpl& m_cable;
 };
 
-/** Watches whether the path as a whole still holds: that it can be found with its contacts kept, and is no saddle. */
-class StabilityEventHandler : public CableEventHandler {
+/** Ends the search for an event, not by time but by what it is for: that nothing jumps.
+
+Simbody narrows the window of an event until it is as narrow as all witnesses demand that change sign across it. This
+one is that of contact plus kDeepest, and demands the narrowest window: while the path of the window's late end is
+kDeepest below contact the search goes on, and when it is not, this witness is above zero at both ends and has no say.
+The late end is where the event is handled. In a speed v across a contact of size R the contact is then made
+
+    w R <= kDeepest R late, in depth or arc length; lengths jump by O(w^2) R, rates by O(w) v,
+
+at any speed, in as many steps as that takes; a fixed window of time would be too wide for a fast motion, and for a slow
+one narrower than doubles tell apart. The witness of contact itself asks for kEventWindow, so that the time of an event
+is as exact as the study where the motion is so slow that kDeepest says little. */
+class BreachEventHandler : public SimTK::TriggeredEventHandler {
 public:
-    using CableEventHandler::CableEventHandler;
+    static constexpr SimTK::Real kDeepest = 1e-8;  ///< in sizes of the surface
+
+    explicit BreachEventHandler(const CableImpl& cable);
     SimTK::Real getValue(const SimTK::State& state) const override;
+    void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
+
+private:
+    const CableImpl& m_cable;
+};
+
+/** Mends what other handlers leave behind. A witness that is below zero when a step begins never triggers: where a
+user's handler has moved a body, the contacts of before would stay for the rest of the study. A TimeStepper asks for
+scheduled events whenever it goes on, and gets one at once where the paths were invalidated since they were last
+realized, and do not hold now; a moment later, since events at one time come once, if there was one already. */
+class SettlingEventHandler : public SimTK::ScheduledEventHandler {
+public:
+    explicit SettlingEventHandler(const CableSubsystemImpl& cables) : m_cables(cables) {}
+    SimTK::Real getNextEventTime(const SimTK::State& state, bool includeCurrentTime) const override;
+    void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
+
+private:
+    const CableSubsystemImpl& m_cables;
 };
 
 /** Watches one element. */
-class ElementEventHandler : public CableEventHandler {
+class ElementEventHandler : public SimTK::TriggeredEventHandler {
 public:
-    ElementEventHandler(const CableImpl& cable, CableElementIndex element)
-        : CableEventHandler(cable), m_element(element) {}
+    ElementEventHandler(const CableImpl& cable, CableElementIndex element);
 
 protected:
+    const CableImpl& m_cable;
     CableElementIndex m_element;
-};
-
-/** Changes the contact of an obstacle. */
-class ContactEventHandler : public ElementEventHandler {
-public:
-    using ElementEventHandler::ElementEventHandler;
-    SimTK::Real getValue(const SimTK::State& state) const override;
 };
 
 /** Watches whether one arc still describes how a surface that is not convex holds the cable, and reports where it no
@@ -57,6 +86,7 @@ class ConditionEventHandler : public ElementEventHandler {
 public:
     ConditionEventHandler(const CableImpl& cable, CableElementIndex point);
     SimTK::Real getValue(const SimTK::State& state) const override;
+    void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
 };
 
 }  // namespace tautline

@@ -3,55 +3,17 @@
 
 #include <cmath>
 
+#include "height_map_patch.h"
 #include "tautline/error.h"
 #include "tautline/simbody/conversions.h"
-#include "tautline/surfaces/patch_shape.h"
+#include "tautline/surfaces/cylinder.h"
+#include "tautline/surfaces/ellipsoid.h"
+#include "tautline/surfaces/plane.h"
+#include "tautline/surfaces/scaled_surface.h"
+#include "tautline/surfaces/sphere.h"
+#include "tautline/surfaces/torus.h"
 
 namespace tautline {
-
-/** z = f(x, y) of a bicubic surface, outward up, with the continuation beyond its edges that all patches have. */
-class HeightMapPatch final : public PatchShape<HeightMapPatch> {
-public:
-    explicit HeightMapPatch(const SimTK::BicubicSurface& surface)
-        : PatchShape(calcDomain(surface), true, 1), m_surface(surface) {
-        measure();
-    }
-
-    std::string getDescription() const override { return "height_map"; }
-
-    void calcPartials(const Vec2& uv, PatchPartials& partials) const {
-        SimTK::BicubicSurface::PatchHint hint;
-        const SimTK::Vec2 xy(uv.x(), uv.y());
-        partials.setZero();
-        partials.col(0).head<2>() = uv;
-        partials(0, 3) = partials(1, 1) = 1;
-        partials(2, 0) = m_surface.calcValue(xy, hint);
-        // The fourth derivative, which matters beyond a corner only, is not to be had.
-        for (int i = 0; i < 3; ++i)
-            for (int j = i == 0; j < 3 && i + j < 4; ++j) {
-                SimTK::Array_<int> components(i, 0);
-                components.insert(components.end(), j, 1);
-                partials(2, 3 * i + j) = m_surface.calcDerivative(components, xy, hint);
-            }
-    }
-
-    /** f = z - height(x, y). */
-    ImplicitValue calcImplicit(const Vec3& p_S) const {
-        const ParametricValue s = calcParametric(p_S.head<2>(), 0);
-        Mat3 hessian = Mat3::Zero();
-        hessian(0, 0) = -s.xuu.z(), hessian(1, 1) = -s.xvv.z();
-        hessian(0, 1) = hessian(1, 0) = -s.xuv.z();
-        return {p_S.z() - s.x.z(), Vec3(-s.xu.z(), -s.xv.z(), 1), hessian};
-    }
-
-private:
-    static ParameterDomain calcDomain(const SimTK::BicubicSurface& surface) {
-        const SimTK::Vec2 min = surface.getMinXY(), max = surface.getMaxXY();
-        return {Vec2(min[0], min[1]), Vec2(max[0], max[1])};
-    }
-
-    SimTK::BicubicSurface m_surface;
-};
 
 namespace {
 
@@ -111,6 +73,36 @@ ImplicitValue ContactGeometrySurface::calcImplicit(const Vec3& p_S) const {
     const SimTK::Vec3 p = toSimTK(p_S);
     return {-m_geometry.calcSurfaceValue(p), -toEigen(m_geometry.calcSurfaceGradient(p)),
             -toEigen(m_geometry.calcSurfaceHessian(p))};
+}
+
+namespace {
+
+/** Simbody's half space is x > 0. */
+std::shared_ptr<const Surface> makePlane(double size) {
+    Mat3 turned;  // z to -x, x to z
+    turned << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+    return makeScaledSurface(std::make_shared<Plane>(size), turned);
+}
+
+}  // namespace
+
+std::shared_ptr<const Surface> makeSurface(const SimTK::ContactGeometry& geometry) {
+    using SimTK::ContactGeometry;
+    require(!geometry.isEmptyHandle(), "contact geometry: the handle is empty");
+    if (ContactGeometry::Sphere::isInstance(geometry))
+        return std::make_shared<Sphere>(ContactGeometry::Sphere::getAs(geometry).getRadius());
+    if (ContactGeometry::Cylinder::isInstance(geometry))
+        return std::make_shared<Cylinder>(ContactGeometry::Cylinder::getAs(geometry).getRadius());
+    if (ContactGeometry::Ellipsoid::isInstance(geometry))
+        return std::make_shared<Ellipsoid>(toEigen(ContactGeometry::Ellipsoid::getAs(geometry).getRadii()));
+    if (ContactGeometry::Torus::isInstance(geometry)) {
+        const auto& torus = ContactGeometry::Torus::getAs(geometry);
+        return std::make_shared<Torus>(torus.getTorusRadius(), torus.getTubeRadius());
+    }
+    if (ContactGeometry::HalfSpace::isInstance(geometry)) return makePlane(1);
+    if (ContactGeometry::SmoothHeightMap::isInstance(geometry))
+        return std::make_shared<HeightMapPatch>(ContactGeometry::SmoothHeightMap::getAs(geometry).getBicubicSurface());
+    return std::make_shared<ContactGeometrySurface>(geometry);
 }
 
 }  // namespace tautline

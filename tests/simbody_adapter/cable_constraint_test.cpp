@@ -152,7 +152,7 @@ TEST(CableConstraintTest, TheMultiplierIsTheTensionOfAStiffString) {
     const Real k = 1e6, firstTension = constraint.getTension(state);
     EXPECT_GT(firstTension, 1);
     // From the stretch that balances it; what touchdown and the swing excite along the string dies out in a few ms.
-    const ElasticStringForce string(stiff.forces, stiff.cable, kStartLength - firstTension / k, k, 100);
+    const ElasticStringForce string(stiff.forces, stiff.cable, k, kStartLength - firstTension / k, 100);
     const auto run = [](SwingingOverCylinder& scene, Real time) {
         SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
         integrator.setAccuracy(1e-8);

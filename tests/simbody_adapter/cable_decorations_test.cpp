@@ -255,5 +255,21 @@ TEST(CableDecorationsTest, MeshesAreLaidOnce) {
     EXPECT_TRUE(areOne(first.meshes[0], second.meshes[0]));
 }
 
+TEST(CableSubsystemDecorations, AreDrawnWithTheSystemUnlessToldNotTo) {
+    MechanismScene scene;
+    const State state = scene.makeState(0);
+    scene.system.realize(state, Stage::Position);
+    const auto countLines = [&] {
+        SimTK::Array_<SimTK::DecorativeGeometry> geometry;
+        for (Stage stage = Stage::Topology; stage <= Stage::Position; stage = stage.next())
+            scene.system.calcDecorativeGeometryAndAppend(state, stage, geometry);
+        return Drawing(geometry).lines;
+    };
+    EXPECT_TRUE(scene.cables.getShowDecorations());
+    const int shown = countLines();
+    scene.cables.setShowDecorations(false);  // the bodies draw lines too
+    EXPECT_EQ(shown - countLines(), static_cast<int>(scene.cable.calcDrawingPoints(state).size()) - 1);
+}
+
 }  // namespace
 }  // namespace tautline::testing

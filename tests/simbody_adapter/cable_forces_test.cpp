@@ -27,7 +27,7 @@ struct StraightCable : BareScene {
 
 TEST(ElasticString, TensionEnergyAndDissipation) {
     StraightCable scene;
-    const ElasticStringForce force(scene.forces, scene.cable, 1.5, 100, 0.2);
+    const ElasticStringForce force(scene.forces, scene.cable, 100, 1.5, 0.2);
     const State taut = scene.makeState(2, 0.5);
     EXPECT_NEAR(force.getStretch(taut), 0.5, 1e-15);
     EXPECT_NEAR(force.getTension(taut), 100 * 0.5 * (1 + 0.2 * 0.5), 1e-12);
@@ -39,7 +39,7 @@ TEST(ElasticString, TensionEnergyAndDissipation) {
 
 TEST(ElasticString, NeverPushes) {
     StraightCable scene;
-    const ElasticStringForce force(scene.forces, scene.cable, 1.5, 100, 0.2);
+    const ElasticStringForce force(scene.forces, scene.cable, 100, 1.5, 0.2);
     const State slack = scene.makeState(1.4, -1);
     EXPECT_EQ(force.getTension(slack), 0);
     EXPECT_EQ(scene.system.calcPotentialEnergy(slack), 0);
@@ -48,9 +48,9 @@ TEST(ElasticString, NeverPushes) {
 
 TEST(ElasticString, RefusesBadParameters) {
     StraightCable scene;
-    EXPECT_MESSAGE(ElasticStringForce(scene.forces, scene.cable, -1, 100),
+    EXPECT_MESSAGE(ElasticStringForce(scene.forces, scene.cable, 100, -1),
                    "cable 'straight': slack length must be finite and not negative, but is -1");
-    EXPECT_MESSAGE(ElasticStringForce(scene.forces, scene.cable, 1, SimTK::NaN), "stiffness must be finite");
+    EXPECT_MESSAGE(ElasticStringForce(scene.forces, scene.cable, SimTK::NaN, 1), "stiffness must be finite");
     EXPECT_MESSAGE(ElasticStringForce(scene.forces, scene.cable, 1, 1, -2), "damping");
     EXPECT_MESSAGE(ElasticStringForce(scene.forces, Cable(), 1, 1), "empty handle");
     EXPECT_EQ(scene.forces.getNumForces(), 0);
@@ -58,7 +58,7 @@ TEST(ElasticString, RefusesBadParameters) {
 
 TEST(ElasticString, PullsNothingWhileDisabled) {
     StraightCable scene;
-    const ElasticStringForce force(scene.forces, scene.cable, 1.5, 100);
+    const ElasticStringForce force(scene.forces, scene.cable, 100, 1.5);
     State state = scene.makeState(2, 0);
     scene.cable.disable(state);
     scene.system.realize(state, Stage::Acceleration);
@@ -74,29 +74,29 @@ TEST(ElasticString, PullsNothingWhileDisabled) {
 
 TEST(CableSpring, TensionEnergyAndDamping) {
     StraightCable scene;
-    const CableSpringForce force(scene.forces, scene.cable, 1.5, 100, 4);
+    const CableSpringForce force(scene.forces, scene.cable, 100, 1.5, 4);
     const State taut = scene.makeState(2, 0.5);
     EXPECT_NEAR(force.getTension(taut), 100 * 0.5 + 4 * 0.5, 1e-12);
     EXPECT_NEAR(scene.system.calcPotentialEnergy(taut), 0.5 * 100 * 0.25, 1e-12);
     EXPECT_NEAR(taut.getUDot()[0], -52, 1e-11);
-    // Below the rest length only the damper pulls, and nothing pushes.
+    // Below the slack length only the damper pulls, and nothing pushes.
     EXPECT_NEAR(force.getTension(scene.makeState(1.4, 0.5)), 2, 1e-12);
     EXPECT_EQ(scene.system.calcPotentialEnergy(scene.makeState(1.4, 0.5)), 0);
     EXPECT_EQ(force.getTension(scene.makeState(1.4, -0.5)), 0);
     EXPECT_EQ(force.getTension(scene.makeState(1.6, -3)), 0);
-    EXPECT_EQ(force.getRestLength(), 1.5);
-    EXPECT_EQ(force.getStiffness(), 100);
-    EXPECT_EQ(force.getDamping(), 4);
-    EXPECT_MESSAGE(CableSpringForce(scene.forces, scene.cable, -1, 100),
-                   "cable spring on cable 'straight': rest length must be finite and not negative, but is -1");
-    EXPECT_MESSAGE(CableSpringForce(scene.forces, scene.cable, 1, -2), "stiffness");
+    EXPECT_EQ(force.getDefaultParameters().slackLength, 1.5);
+    EXPECT_EQ(force.getDefaultParameters().stiffness, 100);
+    EXPECT_EQ(force.getDefaultParameters().damping, 4);
+    EXPECT_MESSAGE(CableSpringForce(scene.forces, scene.cable, 100, -1),
+                   "cable spring on cable 'straight': slack length must be finite and not negative, but is -1");
+    EXPECT_MESSAGE(CableSpringForce(scene.forces, scene.cable, -2, 1), "stiffness");
     EXPECT_MESSAGE(CableSpringForce(scene.forces, scene.cable, 1, 1, SimTK::NaN), "damping");
 }
 
 TEST(CableSpring, OscillatesWithItsFrequency) {
     // Mass 1, k = 9: x = rest + a cos 3t while taut.
     StraightCable scene;
-    CableSpringForce(scene.forces, scene.cable, 1.5, 9);
+    CableSpringForce(scene.forces, scene.cable, 9, 1.5);
     SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
     integrator.setAccuracy(1e-11);
     SimTK::TimeStepper stepper(scene.system, integrator);

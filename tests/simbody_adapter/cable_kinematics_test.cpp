@@ -278,5 +278,23 @@ TEST(CableKinematics, DrawingPointsFollowThePath) {
     EXPECT_NEAR(length, scene.cable.getLength(state), 1e-5);
 }
 
+TEST(CableKinematics, ForcesOfElementsAddUpToThoseOfBodiesAndTurnWithTheirPoint) {
+    MechanismScene scene;
+    const State state = scene.makeState(0.3);
+    scene.system.realize(state, Stage::Position);
+    SimTK::Vector_<SimTK::SpatialVec> expected, sum(scene.matter.getNumBodies(), SimTK::SpatialVec(SimTK::Vec3(0)));
+    scene.cable.calcUnitBodyForces(state, expected);
+    for (CableElementIndex e(0); e < scene.cable.getNumElements(); ++e) {
+        const SimTK::MobilizedBody& body = scene.matter.getMobilizedBody(scene.cable.getElementBody(e));
+        const SimTK::SpatialVec aboutBody = scene.cable.calcUnitForceAboutBodyOrigin(state, e);
+        const SimTK::SpatialVec aboutElement = scene.cable.calcUnitForceAboutElementOrigin(state, e);
+        sum[body.getMobilizedBodyIndex()] += aboutBody;
+        const SimTK::Vec3 arm = body.getBodyRotation(state) * scene.cable.getElementFrame(e).p();
+        EXPECT_LT((aboutBody[0] - aboutElement[0] - arm % aboutElement[1]).norm(), 1e-14);
+        EXPECT_EQ(aboutBody[1], aboutElement[1]);
+    }
+    for (int b = 0; b < sum.size(); ++b) EXPECT_LT((sum[b] - expected[b]).norm(), 1e-14);
+}
+
 }  // namespace
 }  // namespace tautline::testing

@@ -148,7 +148,7 @@ struct TautlineTwin : TwinBodies {
     Real calcArcLength() const {
         Real sum = 0;
         for (CableElementIndex e(0); e < cable.getNumElements(); ++e)
-            if (cable.isObstacle(e)) sum += cable.getArcLength(state, e);
+            if (cable.isObstacle(e) && cable.isTouched(state, e)) sum += cable.getArcLength(state, e);
         return sum;
     }
 

@@ -5,6 +5,7 @@
 
 #include "adapter_scenes.h"
 #include "support/random.h"
+#include "support/seeded_random.h"
 #include "tautline/surfaces/plane.h"
 #include "tautline/surfaces/polynomial_patch.h"
 #include "tautline/surfaces/surface_laws.h"
@@ -213,6 +214,97 @@ TEST(ContactGeometrySurfaceTest, RefusesWhatIsNotSmooth) {
     EXPECT_MESSAGE(ContactGeometrySurface(SimTK::ContactGeometry::Brick({1, 1, 1})), "not smooth");
     EXPECT_MESSAGE(ContactGeometrySurface(SimTK::ContactGeometry::Sphere(1), -2),
                    "size must be positive and finite, but is -2");
+}
+
+TEST(MakeSurface, GivesTheCoresOwnShapes) {
+    using G = SimTK::ContactGeometry;
+    EXPECT_EQ(makeSurface(G::Sphere(0.5))->getDescription(), Sphere(0.5).getDescription());
+    EXPECT_EQ(makeSurface(G::Cylinder(0.4))->getDescription(), Cylinder(0.4).getDescription());
+    EXPECT_EQ(makeSurface(G::Ellipsoid({1, 2, 3}))->getDescription(), Ellipsoid(Vec3(1, 2, 3)).getDescription());
+    EXPECT_EQ(makeSurface(G::Torus(1, 0.3))->getDescription(), Torus(1, 0.3).getDescription());
+    EXPECT_MESSAGE(makeSurface(G::Brick({1, 1, 1})), "not smooth");
+    EXPECT_MESSAGE(makeSurface(G()), "empty");
+}
+
+/** Inside and outside are those of Simbody's function, and where it is zero the normals are the same. */
+TEST(MakeSurface, OccupiesWhatTheGeometryOccupies) {
+    SeededRandom random(12);
+    std::vector<SimTK::ContactGeometry> geometries{SimTK::ContactGeometry::HalfSpace()};
+    for (const GeometryCase& c : makeGeometryCases()) geometries.push_back(c.geometry);
+    for (const SimTK::ContactGeometry& geometry : geometries) {
+        const std::shared_ptr<const Surface> surface = makeSurface(geometry);
+        SCOPED_TRACE(surface->getDescription());
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 p = random.vector(0.9);
+            const bool isHalfSpace = SimTK::ContactGeometry::HalfSpace::isInstance(geometry);
+            const double f = isHalfSpace ? p.x() : geometry.calcSurfaceValue(toSimTK(p));
+            EXPECT_EQ(surface->calcHeight(p) < 0, f > 0) << p.transpose();
+            const SurfacePoint foot = surface->findSurfacePoint(p);
+            if (!(surface->calcDomainMargin(foot) > 0)) continue;
+            const Vec3 N = surface->calcFrame(foot, Vec3(1, 2, 3)).N;
+            const Vec3 outward =
+                isHalfSpace ? toEigen(SimTK::Vec3(SimTK::ContactGeometry::HalfSpace::getAs(geometry).getNormal()))
+                            : Vec3(-toEigen(geometry.calcSurfaceGradient(toSimTK(foot.p))).normalized());
+            EXPECT_LT((N - outward).norm(), 1e-9) << p.transpose();
+        }
+    }
+}
+
+/** A map of unequal cells: heights and all derivatives that geodesics need, against Simbody's. */
+TEST(MakeSurface, AHeightMapHasTheValuesOfTheBicubicSurface) {
+    SeededRandom random(34);
+    constexpr int nx = 5, ny = 7;
+    SimTK::Vector x(nx), y(ny);
+    SimTK::Matrix f(nx, ny);
+    for (int i = 0; i < nx; ++i) x[i] = i == 0 ? -1 : x[i - 1] + random.uniform(0.3, 0.6);
+    for (int j = 0; j < ny; ++j) y[j] = j == 0 ? -2 : y[j - 1] + random.uniform(0.3, 0.6);
+    for (int i = 0; i < nx; ++i)
+        for (int j = 0; j < ny; ++j) f(i, j) = random.uniform(-0.3, 0.3);
+    const SimTK::BicubicSurface map(x, y, f);
+    const auto surface = makeSurface(SimTK::ContactGeometry::SmoothHeightMap(map));
+    double worst = 0, worstNormal = 0, worstCurvature = 0;
+    for (int k = 0; k < 1000; ++k) {
+        const SimTK::Vec2 at(random.uniform(x[0], x[nx - 1]), random.uniform(y[0], y[ny - 1]));
+        const auto differentiate = [&](std::initializer_list<int> components) {
+            return map.calcDerivative(SimTK::Array_<int>(components.begin(), components.end()), at);
+        };
+        const double fx = differentiate({0}), fy = differentiate({1}), slope = std::sqrt(1 + fx * fx + fy * fy);
+        const SurfacePoint point{Vec3(at[0], at[1], map.calcValue(at)), Vec2(at[0], at[1]), 0};
+        worst = std::max(worst, std::abs(surface->calcHeight(point.p)));
+        const DarbouxFrame frame = surface->calcFrame(point, random.vector(1));
+        worstNormal = std::max(worstNormal, (frame.N - Vec3(-fx, -fy, 1) / slope).norm());
+        // The second fundamental form of a graph.
+        const Vec3& t = frame.t;
+        const double curvature = (differentiate({0, 0}) * t.x() * t.x() + 2 * differentiate({0, 1}) * t.x() * t.y() +
+                                  differentiate({1, 1}) * t.y() * t.y()) /
+                                 slope;
+        worstCurvature = std::max(worstCurvature, std::abs(frame.kappaN - curvature) / (1 + std::abs(curvature)));
+    }
+    std::printf("[measured] height map: values %.1e, normals %.1e, curvatures %.1e\n", worst, worstNormal,
+                worstCurvature);
+    EXPECT_LT(worst, 1e-14);
+    EXPECT_LT(worstNormal, 1e-13);
+    EXPECT_LT(worstCurvature, 1e-12);
+    EXPECT_GT(surface->calcDomainMargin(surface->findSurfacePoint(Vec3(x[0] + 0.1, 0, 0))), 0);
+    EXPECT_LT(surface->calcDomainMargin(surface->findSurfacePoint(Vec3(x[0] - 0.1, 0, 0))), 0);
+    EXPECT_GT(surface->calcHeight(Vec3(x[0] - 0.1, 0, -5)), 0);  // beside the map is outside
+    EXPECT_LT(surface->calcHeight(Vec3(x[0] + 0.1, 0, -5)), 0);
+}
+
+TEST(MakeSurface, ACableTakesGeometryAsItIs) {
+    for (const GeometryCase& c : makeGeometryCases()) {
+        SCOPED_TRACE(c.name);
+        BareScene scene;
+        Cable given(scene.cables, SimTK::GroundIndex, c.A_S, SimTK::GroundIndex, c.B_S);
+        given.addObstacle(SimTK::GroundIndex, Transform(), std::make_shared<SimTK::ContactGeometry>(c.geometry),
+                          c.hint_S);
+        Cable twin(scene.cables, SimTK::GroundIndex, c.A_S, SimTK::GroundIndex, c.B_S);
+        twin.addObstacle(SimTK::GroundIndex, Transform(), c.twin, c.hint_S);
+        const State state = scene.system.realizeTopology();
+        scene.system.realize(state, Stage::Position);
+        EXPECT_NEAR(given.getLength(state), twin.getLength(state), 1e-10);
+        EXPECT_EQ(dynamic_cast<const ContactGeometrySurface*>(given.getSurface(given.getObstacle(0)).get()), nullptr);
+    }
 }
 
 }  // namespace

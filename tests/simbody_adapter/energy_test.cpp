@@ -87,7 +87,7 @@ struct SwingingMass : BareScene {
             ++numEvents[0];
             jump = std::max(jump, std::abs(event.lengthAfter - event.lengthBefore));
         });
-        meter = new WorkMeter(matter, forces, ElasticStringForce(forces, cable, 1.2 * scale, 1, damping));
+        meter = new WorkMeter(matter, forces, ElasticStringForce(forces, cable, 1, 1.2 * scale, damping));
         SimTK::Force::Custom(forces, meter);
     }
 

@@ -31,7 +31,7 @@ struct MovingScene : BareScene {
         cable.setMovingInsertion(makeStation(first, SimTK::Vec3(0.3, 0, 0)));
         for (const MobilizedBody& body : {first, second, third})
             SimTK::Force::MobilityLinearSpring(forces, body, SimTK::MobilizerUIndex(0), 3, 0.1);
-        if (hasForce) ElasticStringForce(forces, cable, 3, 2);
+        if (hasForce) ElasticStringForce(forces, cable, 2, 3);
         system.realizeTopology();
     }
 
@@ -171,8 +171,8 @@ TEST(ConditionalPoints, ArePassedOverWhereTheirConditionIsFalse) {
     EXPECT_FALSE(scene.cable.isActive(outside, scene.point));
     EXPECT_TRUE(scene.cable.isTouched(outside, scene.sphere));
     EXPECT_NEAR(scene.cable.getLength(outside), calcLengthOverSphere(2.5), 1e-13);
-    EXPECT_EQ(scene.cable.calcUnitElementForce(outside, scene.point).norm(), 0);
-    EXPECT_GT(scene.cable.calcUnitElementForce(inside, scene.point).norm(), 0.5);
+    EXPECT_EQ(scene.cable.calcUnitForceAboutElementOrigin(outside, scene.point).norm(), 0);
+    EXPECT_GT(scene.cable.calcUnitForceAboutElementOrigin(inside, scene.point).norm(), 0.5);
 }
 
 TEST(ConditionalPoints, AStudyStopsWhereTheConditionChangesAndContactsFollow) {

@@ -22,7 +22,7 @@ std::vector<Real> calcNumbers(const MechanismScene& scene, const State& state) {
         for (int i = 0; i < 3; ++i) numbers.push_back(F[0][i]), numbers.push_back(F[1][i]);
     for (const CableElementIndex obstacle : {scene.sphere, scene.cylinder, scene.ellipsoid}) {
         numbers.push_back(cable.isTouched(state, obstacle));
-        numbers.push_back(cable.getArcLength(state, obstacle));
+        numbers.push_back(cable.isTouched(state, obstacle) ? cable.getArcLength(state, obstacle) : 0);
         numbers.push_back(cable.getWitness(state, obstacle));
     }
     return numbers;
@@ -137,7 +137,7 @@ std::vector<std::vector<Real>> simulate(const MechanismScene& scene, const State
 
 struct StrungMechanism : MechanismScene {
     StrungMechanism() {
-        ElasticStringForce(forces, cable, 4, 5, 0.1);
+        ElasticStringForce(forces, cable, 5, 4, 0.1);
         system.realizeTopology();
     }
 };

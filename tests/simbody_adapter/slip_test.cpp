@@ -173,7 +173,7 @@ TEST(Slip, AStringSlipsOffWhereItsStabilityEndsAtAnyAccuracy) {
 TEST(Slip, TakesTheEnergyThatItsLengthsSay) {
     PressedString scene(Vec3(1, 0.5, 0.6), 1.5, 0);
     constexpr Real slackLength = 2.9, stiffness = 20;
-    const ElasticStringForce string(scene.forces, scene.cable, slackLength, stiffness);
+    const ElasticStringForce string(scene.forces, scene.cable, stiffness, slackLength);
     SimTK::Force::MobilityLinearSpring(scene.forces, scene.slider, SimTK::MobilizerUIndex(0), 30, -0.8);
     State state = scene.system.realizeTopology();
     scene.drive.disable(state);
@@ -227,7 +227,7 @@ struct FlungMass : BareScene {
             cable.addObstacle(matter.Ground(), Transform(SimTK::Rotation(1.5 * random.getValue(), axis), place),
                               kinds[(number + i) % 3]);
         }
-        ElasticStringForce(forces, cable, 1, 2);
+        ElasticStringForce(forces, cable, 2, 1);
         initial = system.realizeTopology();
         mass.setQ(initial, SimTK::Vec3(1.5, 0.5 * random.getValue(), 0.5 * random.getValue()));
         mass.setU(initial, SimTK::Vec3(0, 4 * random.getValue(), 4 * random.getValue()));

@@ -9,6 +9,7 @@
 #include "paths/path_following.h"
 #include "paths/pose_motion.h"
 #include "paths/posed_problem.h"
+#include "paths/route_check.h"
 #include "paths/threading.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_explanation.h"
@@ -119,9 +120,16 @@ std::vector<PathEvent> listEvents(const PathProblem& problem, const PathSolution
 }  // namespace
 
 struct PathTracker::Workspace {
-    explicit Workspace(const PathSolverOptions& options) : solver(options), follower(options) {}
+    explicit Workspace(const PathSolverOptions& options)
+        : solver(options), continuer(withoutSearch(options)), follower(options) {}
+
+    static PathSolverOptions withoutSearch(PathSolverOptions options) {
+        options.allowsColdStart = false;
+        return options;
+    }
 
     PathSolver solver;
+    PathSolver continuer;  ///< finds nothing anew
     PathFollower follower;
     ContactSettler settler;
     PoseMotion way;
@@ -139,6 +147,29 @@ const PathSolverOptions& PathTracker::getOptions() const {
 void PathTracker::solve(const PathProblem& problem, TrackedPath& path) {
     if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
     path.solution.contacts.clear();
+    m_workspace->solver.solve(problem, path.pose, path.solution);
+}
+
+void PathTracker::solveFrom(const PathProblem& problem, const TrackedPath& start, TrackedPath& path) {
+    if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
+    const auto isMinimum = [](const PathSolution& solution) {
+        return solution.status == PathStatus::Solved || solution.status == PathStatus::EndInside;
+    };
+    if (!start.solution.isEmpty() && isMinimum(start.solution)) {
+        path.solution = start.solution;
+        m_workspace->continuer.solve(problem, path.pose, path.solution);
+        if (isMinimum(path.solution) && isOnDefaultCourse({problem, path.pose}, path.solution)) return;
+    }
+    solve(problem, path);
+}
+
+void PathTracker::trackFreely(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion,
+                              TrackedPath& path) {
+    if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
+    if (start.solution.isEmpty()) return solve(problem, path);
+    const bool isFar = isGoodStart(start) && turnsFar(problem, start, motion, path);
+    // Wound up as the motion says, even where contacts change on the way.
+    if (!isFar || !follow(problem, start, motion, 1, path)) path.solution = start.solution;
     m_workspace->solver.solve(problem, path.pose, path.solution);
 }
 

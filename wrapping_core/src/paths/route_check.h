@@ -13,4 +13,9 @@ RouteDeviation findDeviation(const PosedProblem& scene, const PathSolution& path
 /** The same of sides and turns alone, where passages are judged otherwise. */
 RouteDeviation findSideDeviation(const PosedProblem& scene, const PathSolution& path);
 
+/** Whether a minimum runs as one that is found anew in its pose has to: as the hints ask, past an obstacle without a
+hint on the side where the straight line between its neighbors passes, through unhinted rings as that line does, and
+wound up by less than a full turn unless a hint says otherwise. */
+bool isOnDefaultCourse(const PosedProblem& scene, const PathSolution& path);
+
 }  // namespace tautline

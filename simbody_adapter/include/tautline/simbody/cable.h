@@ -12,6 +12,7 @@
 #include "tautline/paths/path_verification.h"
 #include "tautline/paths/start_hint.h"
 #include "tautline/simbody/cable_subsystem.h"
+#include "tautline/simbody/hints.h"
 #include "tautline/simbody/moving_station.h"
 
 namespace tautline {
@@ -65,6 +66,21 @@ struct CableStatistics {
     double largestPathError = 0;  ///< in those steps: Cable::getPathError(), NaN if it once was that
 };
 
+/** A body, by its handle or by its index. */
+class CableBody {
+public:
+    CableBody(const SimTK::MobilizedBody& body) : m_body(&body) {}
+    CableBody(SimTK::MobilizedBodyIndex index) : m_index(index) {}
+
+    /** @throws InvalidInput unless it is a body of this matter subsystem: one of another system would be taken for ours
+    with the same index */
+    SimTK::MobilizedBodyIndex findIndex(const SimTK::SimbodyMatterSubsystem& matter, const std::string& cable) const;
+
+private:
+    const SimTK::MobilizedBody* m_body = nullptr;
+    SimTK::MobilizedBodyIndex m_index;
+};
+
 /** A taut, frictionless, massless string from a point on one body over via points and smooth obstacles on
 others to a point on another: the shortest path, found on its own side of each obstacle.
 
@@ -79,26 +95,26 @@ public:
 
     /** Adds a cable to the subsystem. All bodies must belong to one matter subsystem of the same system.
     @param originStation_B, insertionStation_B   finite, measured in the body's frame [m]
-    @param name   for messages and decorations; empty: "cable0", "cable1", ...
+    @param name   for messages and decorations, unique within the subsystem; empty: "cable0", "cable1", ...
     @throws InvalidInput with the value */
-    Cable(CableSubsystem& cables, const SimTK::MobilizedBody& originBody, const SimTK::Vec3& originStation_B,
-          const SimTK::MobilizedBody& insertionBody, const SimTK::Vec3& insertionStation_B, std::string name = "");
+    Cable(CableSubsystem& cables, const CableBody& originBody, const SimTK::Vec3& originStation_B,
+          const CableBody& insertionBody, const SimTK::Vec3& insertionStation_B, std::string name = "");
 
-    /** @name Building: before realizeTopology() */
+    /** @name Building: before realizeTopology()
+    All of this invalidates the System's topology: States from before it are refused by every query. */
     ///@{
     /** Adds a frictionless eyelet after what has been added so far.
     @param name   empty: "point1", ... by element index */
-    CableElementIndex addViaPoint(const SimTK::MobilizedBody& body, const SimTK::Vec3& station_B,
-                                  std::string name = "");
+    CableElementIndex addViaPoint(const CableBody& body, const SimTK::Vec3& station_B, std::string name = "");
 
     /** Adds an eyelet that moves on its body. */
-    CableElementIndex addMovingPoint(const SimTK::MobilizedBody& body, std::shared_ptr<const MovingStation> station,
+    CableElementIndex addMovingPoint(const CableBody& body, std::shared_ptr<const MovingStation> station,
                                      std::string name = "");
     /** Adds an eyelet that holds the cable only while a condition is true, else is passed over: the length jumps
     where the condition changes, and studies stop a step there.
     @param isActive   of positions and time of a State whose bodies' poses are known; called by many threads at
                       once */
-    CableElementIndex addConditionalPoint(const SimTK::MobilizedBody& body, const SimTK::Vec3& station_B,
+    CableElementIndex addConditionalPoint(const CableBody& body, const SimTK::Vec3& station_B,
                                           std::function<bool(const SimTK::State&)> isActive, std::string name = "");
     /** Lets an end move on its body; the station given before no longer counts. */
     void setMovingOrigin(std::shared_ptr<const MovingStation> station);
@@ -109,18 +125,33 @@ public:
     @param surface   may be shared between obstacles
     @param hint_S    a point near which the path shall run at first, in S; none: the solver finds a side
     @param name      unique within the cable; empty: "obstacle1", ... by element index */
-    CableElementIndex addObstacle(const SimTK::MobilizedBody& body, const SimTK::Transform& X_BS,
+    CableElementIndex addObstacle(const CableBody& body, const SimTK::Transform& X_BS,
                                   std::shared_ptr<const Surface> surface,
                                   std::optional<SimTK::Vec3> hint_S = std::nullopt, std::string name = "");
-    /** As above. @param hint   a side, a winding, how often through a hole: see StartHint */
-    CableElementIndex addObstacle(const SimTK::MobilizedBody& body, const SimTK::Transform& X_BS,
+    /** As above. @param hint   a side, a winding, how often through a hole: see StartHint, and hints.h for functions
+    that take Simbody's vectors */
+    CableElementIndex addObstacle(const CableBody& body, const SimTK::Transform& X_BS,
                                   std::shared_ptr<const Surface> surface, const StartHint& hint, std::string name = "");
+    /** As above, with what makeSurface() makes of Simbody's geometry. */
+    CableElementIndex addObstacle(const CableBody& body, const SimTK::Transform& X_BS,
+                                  const std::shared_ptr<const SimTK::ContactGeometry>& geometry,
+                                  std::optional<SimTK::Vec3> hint_S = std::nullopt, std::string name = "");
+    CableElementIndex addObstacle(const CableBody& body, const SimTK::Transform& X_BS,
+                                  const std::shared_ptr<const SimTK::ContactGeometry>& geometry, const StartHint& hint,
+                                  std::string name = "");
 
     /** Has an obstacle take part only while a condition is true, else it is passed over, as a conditional point is.
     Once per obstacle. @param isActive   as for addConditionalPoint() */
     void setCondition(CableElementIndex obstacle, std::function<bool(const SimTK::State&)> isActive);
 
-    /** How the path is laid where it is found anew; invalidates the topology. */
+    /** Of any element, ends included. */
+    void setBody(CableElementIndex element, const CableBody& body);
+    /** Where a point is on its body; a moving one stays there from now on. */
+    void setStation(CableElementIndex point, const SimTK::Vec3& station_B);
+    void setObstacleFrame(CableElementIndex obstacle, const SimTK::Transform& X_BS);
+    void setSurface(CableElementIndex obstacle, std::shared_ptr<const Surface> surface);
+
+    /** How the path is laid where it is found anew. */
     void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
     void setHint(CableElementIndex obstacle, const StartHint& hint);
 
@@ -131,6 +162,9 @@ public:
     /** A disabled cable solves nothing, pulls at nothing and raises no events. */
     void setDisabledByDefault(bool isDisabled);
     bool isDisabledByDefault() const;
+
+    /** In States fresh from the System; else that of the subsystem holds. */
+    void setDefaultContactMode(ContactMode mode);
     ///@}
 
     /** @name What the cable is made of */
@@ -142,6 +176,15 @@ public:
     const SimTK::SimbodyMatterSubsystem& getMatterSubsystem() const;
     /** Origin and insertion included. */
     int getNumElements() const;
+    int getNumObstacles() const;
+    int getNumViaPoints() const;
+    /** The first, second, ... of the obstacles (or via points), from 0 on. @throws InvalidInput if there are not that
+     * many
+     */
+    CableElementIndex getObstacle(int number) const;
+    CableElementIndex getViaPoint(int number) const;
+    CableElementIndex getOrigin() const { return CableElementIndex(0); }
+    CableElementIndex getInsertion() const { return CableElementIndex(getNumElements() - 1); }
     bool isObstacle(CableElementIndex element) const;
     const std::string& getElementName(CableElementIndex element) const;
     /** @throws InvalidInput if no element has this name */
@@ -167,10 +210,14 @@ public:
     void enable(SimTK::State& state) const;
     bool isDisabled(const SimTK::State& state) const;
 
+    /** A mode other than before releases the contacts; those of Events are fixed when a study begins. */
+    void setContactMode(SimTK::State& state, ContactMode mode) const;
+    ContactMode getContactMode(const SimTK::State& state) const;
+
     /** Fixes the contact set found in this state [Position]: later poses are solved with the same contacts
     and continued from this path, until releaseContacts() or an event handler changes them. For studies
-    that move in small steps without an integrator, where a cold solve at every pose costs too much. A
-    time-stepping study does this by itself when it initializes. */
+    that move in small steps without an integrator. A time-stepping study does this by itself when it initializes. The
+    cable's mode is ContactMode::Events afterwards. */
     void fixContacts(SimTK::State& state) const;
 
     /** Fixes the contact set of a given path, from which the next solve continues: a study may thus start from a
@@ -178,8 +225,8 @@ public:
     @param path   one contact per element; InvalidInput otherwise */
     void continueFrom(SimTK::State& state, const PathSolution& path) const;
 
-    /** Lets every realize(Position) find the contact set anew. Call it after moving a State that comes from
-    an integrator to another pose. While contacts are free there are no events: for a study to have them again,
+    /** Lets the pose alone decide again, in ContactMode::Events as in Free. Call it after moving a State that comes
+    from an integrator to another pose. While contacts are free there are no events: for a study to have them again,
     fixContacts() must follow, or the study be initialized anew. */
     void releaseContacts(SimTK::State& state) const;
     bool areContactsFixed(const SimTK::State& state) const;
@@ -210,7 +257,7 @@ public:
     /** Where an element's origin is on its body, moving or not [m]. */
     SimTK::Vec3 calcStation(const SimTK::State& state, CableElementIndex element) const;
     bool isTouched(const SimTK::State& state, CableElementIndex obstacle) const;
-    /** Length of the arc on an obstacle [m]; 0 while lifted. */
+    /** Length of the arc on an obstacle [m]; NaN while lifted. */
     SimTK::Real getArcLength(const SimTK::State& state, CableElementIndex obstacle) const;
     /** Where the path meets (P) and leaves (Q) an obstacle, in ground. @return false while lifted */
     bool getContactPoints(const SimTK::State& state, CableElementIndex obstacle, SimTK::Vec3& P_G,
@@ -218,6 +265,12 @@ public:
     /** The frames there: x along the path, y the outward normal, z = x cross y. @return false while lifted */
     bool getContactFrames(const SimTK::State& state, CableElementIndex obstacle, SimTK::Transform& X_GP,
                           SimTK::Transform& X_GQ) const;
+    /** Direction of the path where it meets (P) and leaves (Q) an obstacle, in ground. @return false while lifted */
+    bool getContactTangents(const SimTK::State& state, CableElementIndex obstacle, SimTK::UnitVec3& atP_G,
+                            SimTK::UnitVec3& atQ_G) const;
+    /** Direction in which the path leaves the origin, and in which it arrives at the insertion, in ground. */
+    SimTK::UnitVec3 calcOriginTangent(const SimTK::State& state) const;
+    SimTK::UnitVec3 calcInsertionTangent(const SimTK::State& state) const;
     /** Signed distance of the straight segment that passes a lifted obstacle [m]; NaN while touched. */
     SimTK::Real getClearance(const SimTK::State& state, CableElementIndex obstacle) const;
     /** What the event finder watches, dimensionless: contact changes where it falls below zero. Lifted:
@@ -226,6 +279,10 @@ public:
     SimTK::Real getWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     /** Points along the path in ground, arcs turned by at most maxAngle [rad] between points. */
     std::vector<SimTK::Vec3> calcDrawingPoints(const SimTK::State& state, SimTK::Real maxAngle = 0.1) const;
+    /** Points at equal distances along the whole path, ends included, in ground. @param count   at least 2 */
+    std::vector<SimTK::Vec3> calcResampledPoints(const SimTK::State& state, int count) const;
+    /** The same along the arc on an obstacle. @throws InvalidInput while it is lifted */
+    std::vector<SimTK::Vec3> calcResampledArc(const SimTK::State& state, CableElementIndex obstacle, int count) const;
     ///@}
 
     /** @name Forces: unit tension unless one is given [Position]
@@ -233,7 +290,8 @@ public:
     ///@{
     /** Adds the forces of a tension [N] to those of all bodies, about body origins, in ground. A cable with moving
     points needs applyMobilityForces() beside it.
-    @param bodyForces   one entry per mobilized body */
+    @param bodyForces   one entry per mobilized body
+    @throws InvalidInput for a negative tension: a string cannot push */
     void applyBodyForces(const SimTK::State& state, SimTK::Real tension,
                          SimTK::Vector_<SimTK::SpatialVec>& bodyForces) const;
     /** Adds what a tension [N] does to the mobilities through moving points; nothing if there are none.
@@ -242,8 +300,10 @@ public:
     /** Moment [m] and force [1] of unit tension on each body, about body origins, in ground.
     @param unitForces   resized and overwritten */
     void calcUnitBodyForces(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& unitForces) const;
-    /** As calcUnitBodyForces(), for one element and about the element's origin E. */
-    SimTK::SpatialVec calcUnitElementForce(const SimTK::State& state, CableElementIndex element) const;
+    /** What one element puts on its body, as calcUnitBodyForces(): about the body's origin. */
+    SimTK::SpatialVec calcUnitForceAboutBodyOrigin(const SimTK::State& state, CableElementIndex element) const;
+    /** The same about the element's origin E. */
+    SimTK::SpatialVec calcUnitForceAboutElementOrigin(const SimTK::State& state, CableElementIndex element) const;
     /** Generalized forces of unit tension, one per mobility: -d(length rate)/du, moving points included. */
     void calcUnitMobilityForces(const SimTK::State& state, SimTK::Vector& unitForces) const;
     /** Moment arm -dl/dq about one mobility whose speed u is q's derivative [m/rad or 1]: positive where
@@ -270,6 +330,7 @@ public:
 private:
     friend class CableSubsystemImpl;
     explicit Cable(CableImpl* impl) : m_impl(impl) {}
+    SimTK::MobilizedBodyIndex findBody(const CableBody& body) const;
     CableImpl& upd() const;
     const CableImpl& get() const;
 

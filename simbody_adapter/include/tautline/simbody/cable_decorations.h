@@ -8,7 +8,8 @@
 
 namespace tautline {
 
-/** Draws all cables of a subsystem and their obstacles, touched ones in a color of their own:
+/** Draws all cables of a subsystem and their obstacles, touched ones in a color of their own. A CableSubsystem does so by
+itself; in colors of your own, after CableSubsystem::setShowDecorations(false):
 `visualizer.addDecorationGenerator(new CableDecorations(cables))`. Sphere, cylinder, ellipsoid and torus are Simbody's
 own shapes, every other surface is a mesh (calcSurfaceMesh()), laid when it is first drawn. */
 class CableDecorations : public SimTK::DecorationGenerator {

@@ -10,13 +10,13 @@ namespace tautline {
 
 class HeightMapPatch;
 
-/** Any smooth SimTK::ContactGeometry (isSmooth()) as a surface that a cable can wrap. SimTK's implicit
-function is positive inside; its sign is changed here and nowhere else.
+/** Any smooth SimTK::ContactGeometry (isSmooth()) as a surface that a cable can wrap, by its implicit function; see
+makeSurface() for the shapes that the core knows. SimTK's function is positive inside; its sign is changed here and
+nowhere else.
 
 A SmoothHeightMap is a sheet over a rectangle: what lies below it is inside, what lies beside the rectangle is not,
 wherever in height. Beyond its edges iterates go on over a smooth continuation, and an answer that lies there has the
-status LeftDomain. Its bicubic surface is evaluated directly, with a patch hint of
-its own for each call, since SmoothHeightMap shares one between threads. */
+status LeftDomain. */
 class ContactGeometrySurface final : public ImplicitSurface {
 public:
     /** @param geometry   smooth; copied
@@ -39,5 +39,12 @@ private:
     std::shared_ptr<const HeightMapPatch> m_heightMap;  ///< null unless the geometry is one
     double m_size;
 };
+
+/** The same shape as a surface of the core: Sphere, Cylinder, Ellipsoid, Torus and HalfSpace are its own, with closed
+forms, and a SmoothHeightMap is a patch of the same bicubic polynomials, with the edge that the map has. What else is
+smooth is wrapped as a ContactGeometrySurface, which is some ten times slower. Lengths near a HalfSpace, which has no
+size, are measured in meters.
+@throws InvalidInput if the geometry is not smooth, or a dimension is not positive */
+std::shared_ptr<const Surface> makeSurface(const SimTK::ContactGeometry& geometry);
 
 }  // namespace tautline

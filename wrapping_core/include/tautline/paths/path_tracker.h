@@ -62,6 +62,16 @@ public:
     /** Solves with contacts found anew. @param path   in: pose; out: solution, empty in a pose that is not finite */
     void solve(const PathProblem& problem, TrackedPath& path);
 
+    /** As solve(): the pose alone decides, but what is known of a pose nearby saves the search. The path is continued
+    from `start`, and kept if it is a minimum that runs as one found anew would have to: as the hints ask, and past
+    obstacles without a hint on the side of the straight line. Else it is found anew. */
+    void solveFrom(const PathProblem& problem, const TrackedPath& start, TrackedPath& path);
+
+    /** Continues `start` with its contacts decided anew, so that the path keeps its course: for studies without
+    events. Parameters as for track(). */
+    void trackFreely(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion,
+                     TrackedPath& path);
+
     /** Solves with the contacts of `start`. Where one solve does not lead to the path, or to another one that is a
     saddle, and where elements turn against each other by more than a solve follows, the path is carried along the way
     in parts.

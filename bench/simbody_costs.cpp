@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+/** What cables cost in Simbody: a swinging chain with many of them, and one cable over many cylinders beside the core
+alone. README.md says how to read the table. */
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <ctime>
+
+#include "support/weave_scene.h"
+#include "tautline/paths/path_solver.h"
+#include "tautline/simbody/cable.h"
+#include "tautline/simbody/conversions.h"
+#include "tautline/surfaces/cylinder.h"
+
+namespace {
+
+using namespace tautline;
+using SimTK::MobilizedBody;
+using SimTK::Real;
+using SimTK::State;
+using SimTK::Transform;
+
+/** CPU time of this process [s]. */
+double getCpuTime() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/** A chain of links that swings in its plane, with cables from link to next link over a cylinder near the joint
+between them: radii, offsets and sides differ, so that each cable touches and lifts at angles of its own. The cables
+pull at nothing: all studies take the same steps but for those that events end. */
+struct SwingingChain {
+    static constexpr int kLinks = 20;
+    static constexpr Real kLength = 0.1;  ///< of a link [m]
+
+    explicit SwingingChain(int numCables) {
+        SimTK::Force::Gravity(forces, matter, -SimTK::YAxis, 9.81);
+        const SimTK::Body::Rigid link(
+            SimTK::MassProperties(0.1, SimTK::Vec3(0), SimTK::UnitInertia(kLength * kLength / 12)));
+        std::vector<MobilizedBody> links{matter.Ground()};
+        const SimTK::Vec3 end(0, -kLength / 2, 0);
+        for (int i = 0; i < kLinks; ++i)
+            links.push_back(
+                MobilizedBody::Pin(links.back(), Transform(i == 0 ? SimTK::Vec3(0) : end), link, Transform(-end)));
+        for (int c = 0; c < numCables; ++c) addCable(links, c);
+    }
+
+    void addCable(const std::vector<MobilizedBody>& links, int c) {
+        const int joint = 1 + c % (kLinks - 1), round = c / (kLinks - 1);
+        const Real side = round % 2 == 0 ? 1 : -1, radius = 0.008 + 0.0007 * (round % 5);
+        const Real beside = side * (0.0065 + 0.0008 * (round % 6));
+        const SimTK::Vec3 origin(beside, 0.02, 0), insertion(beside, 0, 0.003);
+        Cable cable(cables, links[joint], origin, links[joint + 1], insertion);
+        const SimTK::Vec3 center(side * 0.0005 * (round % 7), -kLength / 2, 0);
+        cable.addObstacle(links[joint], Transform(center), std::make_shared<Cylinder>(radius));
+    }
+
+    SimTK::MultibodySystem system;
+    SimTK::SimbodyMatterSubsystem matter{system};
+    SimTK::GeneralForceSubsystem forces{system};
+    CableSubsystem cables{system};
+};
+
+struct StudyCost {
+    double cpu = 0;
+    long events = 0, realizations = 0, solves = 0;
+};
+
+enum class Contacts { None, Events, Tracked, Free };
+
+void chooseContacts(const SwingingChain& chain, Contacts contacts, State& state) {
+    const ContactMode mode = contacts == Contacts::Tracked ? ContactMode::Tracked
+                             : contacts == Contacts::Free  ? ContactMode::Free
+                                                           : ContactMode::Events;
+    chain.cables.setContactMode(state, mode);
+}
+
+StudyCost simulateChain(int numCables, Contacts contacts, Real duration) {
+    SwingingChain chain(contacts == Contacts::None ? 0 : numCables);
+    State state = chain.system.realizeTopology();
+    state.updQ()[0] = 0.5;
+    SimTK::RungeKuttaMersonIntegrator integrator(chain.system);
+    integrator.setAccuracy(1e-4);
+    chooseContacts(chain, contacts, state);
+    SimTK::TimeStepper stepper(chain.system, integrator);
+    stepper.initialize(state);
+    chain.system.realize(integrator.getState(), SimTK::Stage::Acceleration);
+    for (CableIndex c(0); c < chain.cables.getNumCables(); ++c) chain.cables.getCable(c).resetStatistics();
+    StudyCost cost;
+    const long realizations = chain.system.getNumRealizationsOfThisStage(SimTK::Stage::Position);
+    const double begin = getCpuTime();
+    stepper.stepTo(duration);
+    cost.cpu = getCpuTime() - begin;
+    cost.realizations = chain.system.getNumRealizationsOfThisStage(SimTK::Stage::Position) - realizations;
+    for (CableIndex c(0); c < chain.cables.getNumCables(); ++c) {
+        const CableStatistics statistics = chain.cables.getCable(c).getStatistics();
+        cost.events += statistics.numContactEvents;
+        cost.solves += statistics.numSolves;
+    }
+    return cost;
+}
+
+void printChain(int numCables, Real duration) {
+    std::printf("chain of %d links, %d cables, %g s, RungeKuttaMerson at 1e-4\n", SwingingChain::kLinks, numCables,
+                duration);
+    std::printf("%-16s %9s %7s %9s %10s %22s\n", "contacts", "CPU [s]", "events", "realized", "solves",
+                "us/cable/realization");
+    const std::pair<Contacts, const char*> rows[] = {{Contacts::None, "without cables"},
+                                                     {Contacts::Events, "events"},
+                                                     {Contacts::Tracked, "tracked"},
+                                                     {Contacts::Free, "free"}};
+    for (const auto& [contacts, name] : rows) {
+        const StudyCost cost = simulateChain(numCables, contacts, duration);
+        const double each = 1e6 * cost.cpu / (static_cast<double>(cost.realizations) * numCables);
+        std::printf("%-16s %9.3f %7ld %9ld %10ld %22.2f\n", name, cost.cpu, cost.events, cost.realizations, cost.solves,
+                    each);
+    }
+}
+
+/** The weave with each cylinder on a body of its own. */
+struct SimbodyWeave {
+    SimbodyWeave(const tautline::testing::WeaveScene& scene, int count, bool hasCable) {
+        std::vector<MobilizedBody> bodies;
+        const SimTK::Body::Rigid body(SimTK::MassProperties(1, SimTK::Vec3(0), SimTK::Inertia(0.1)));
+        for (int i = 0; i < count; ++i)
+            bodies.push_back(MobilizedBody::Free(matter.Ground(), Transform(), body, Transform()));
+        if (hasCable) {
+            cable = Cable(cables, matter.Ground(), SimTK::Vec3(-1, 0, 0), matter.Ground(), SimTK::Vec3(count, 0, 0));
+            for (int i = 0; i < count; ++i)
+                cable.addObstacle(bodies[i], Transform(), scene.getProblem().getElement(i + 1).surface,
+                                  SimTK::Vec3(0, i % 2 == 0 ? 0.4 : -0.4, 0));
+        }
+        state = system.realizeTopology();
+        matter.setUseEulerAngles(state, true);
+        system.realizeModel(state);
+    }
+
+    /** q of all bodies for a pose of the path. */
+    SimTK::Vector calcQ(const PathPose& pose) {
+        State at = state;
+        for (SimTK::MobilizedBodyIndex b(1); b < matter.getNumBodies(); ++b)
+            matter.getMobilizedBody(b).setQToFitTransform(at, toTransform(pose.X_GE[b]));
+        return at.getQ();
+    }
+
+    SimTK::MultibodySystem system;
+    SimTK::SimbodyMatterSubsystem matter{system};
+    SimTK::GeneralForceSubsystem forces{system};
+    CableSubsystem cables{system};
+    Cable cable;
+    State state;
+};
+
+/** Least of several rounds: what the machine's other users add only adds. */
+template <class Step>
+double measureLeast(int numSteps, Step step) {
+    constexpr int kRounds = 7;
+    double least = SimTK::Infinity;
+    for (int round = 0; round < kRounds; ++round) {
+        const double begin = getCpuTime();
+        for (int k = 0; k < numSteps; ++k) step(k);
+        least = std::min(least, getCpuTime() - begin);
+    }
+    return 1e6 * least / numSteps;
+}
+
+void printWeave(int count) {
+    using tautline::testing::WeaveScene;
+    const WeaveScene scene(WeaveScene::Kind::Cylinders, count);
+    SimbodyWeave with(scene, count, true), without(scene, count, false);
+    constexpr int kSteps = 400;
+    std::vector<PathPose> poses(kSteps);
+    std::vector<SimTK::Vector> q(kSteps);
+    // There and back, so that the first step of a round starts next to the last one of that before.
+    for (int k = 0; k < kSteps; ++k) {
+        scene.calcPose(WeaveScene::kTimeStep * std::min(k, kSteps - 1 - k), poses[k]);
+        q[k] = with.calcQ(poses[k]);
+    }
+    PathSolver solver;
+    PathSolution path = scene.makeGuess();
+    const double core = measureLeast(kSteps, [&](int k) { solver.solve(scene.getProblem(), poses[k], path); });
+    const auto move = [&](SimbodyWeave& weave, int k) {
+        weave.state.updQ() = q[k];
+        weave.system.realize(weave.state, SimTK::Stage::Position);
+    };
+    const double bodies = measureLeast(kSteps, [&](int k) { move(without, k); });
+    for (const bool hasEvents : {true, false}) {
+        with.cable.continueFrom(with.state, scene.makeGuess());
+        if (!hasEvents) with.cable.setContactMode(with.state, ContactMode::Tracked);
+        double sum = 0;
+        const double cable = measureLeast(kSteps, [&](int k) {
+            move(with, k);
+            sum += with.cable.getLength(with.state);
+            with.state.autoUpdateDiscreteVariables();  // as an integrator does when it accepts a step
+        });
+        std::printf(
+            "%3d cylinders, %-7s: core %.2f us, bodies %.2f us, cable through realize(Position) %.2f us, %.2f of "
+            "both\n",
+            count, hasEvents ? "events" : "tracked", core, bodies, cable, cable / (core + bodies));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("What cables cost in Simbody");
+    int numCables = 200;
+    Real duration = 2;
+    app.add_option("--cables", numCables, "in the chain")->check(CLI::Range(1, 10000));
+    app.add_option("--duration", duration, "of the chain's study [s]")->check(CLI::PositiveNumber);
+    CLI11_PARSE(app, argc, argv);
+    printChain(numCables, duration);
+    for (const int count : {5, 50}) printWeave(count);
+    return 0;
+}
