@@ -17,7 +17,7 @@ std::string readFile(const std::string& file) {
 }
 
 TEST(GuidePages, ShowWhatTheProgramsDo) {
-    for (const std::string name : {"coming_from_cable_span"}) {
+    for (const std::string name : {"coming_from_cable_path", "coming_from_cable_span"}) {
         const std::string page = readFile("guide/" + name + ".md"), program = readFile("examples/" + name + ".cpp");
         const std::string begin = "```cpp\n", end = "```";
         int blocks = 0;
