@@ -5,6 +5,7 @@
 
 #include "model_test_support.h"
 #include "support/seeded_random.h"
+#include "support/shared_data.h"
 #include "tautline/models/coordinate_coupling.h"
 #include "tautline/models/crossed_coordinates.h"
 #include "tautline/models/model_system.h"
@@ -70,7 +71,7 @@ TEST(PathStudy, GivesLengthRateAndArmsInClosedForm) {
     }
 }
 
-TEST(PathStudy, AnswersDependOnThePoseAloneBitForBit) {
+TEST(PathStudy, AnswersDependOnThePoseAlone) {
     const ModelDescription elbow = readElbow();
     std::vector<ModelPose> poses;
     tautline::testing::SeededRandom random(20261127);
@@ -88,9 +89,40 @@ TEST(PathStudy, AnswersDependOnThePoseAloneBitForBit) {
         PathStudy fresh(elbow);
         const PoseAnswer cold = fresh.solve(poses[i]);
         for (std::size_t p = 0; p < again.paths.size(); ++p) {
-            EXPECT_EQ(again.paths[p].length, answers[i].paths[p].length);
-            EXPECT_EQ(cold.paths[p].length, answers[i].paths[p].length);
-            EXPECT_EQ(again.paths[p].effectiveArms, answers[i].paths[p].effectiveArms);
+            EXPECT_EQ(again.paths[p].status, answers[i].paths[p].status);
+            EXPECT_NEAR(again.paths[p].length, answers[i].paths[p].length, 1e-13);
+            EXPECT_NEAR(cold.paths[p].length, answers[i].paths[p].length, 1e-13);
+            for (std::size_t c = 0; c < cold.paths[p].effectiveArms.size(); ++c)
+                EXPECT_NEAR(cold.paths[p].effectiveArms[c], answers[i].paths[p].effectiveArms[c], 1e-10);
+        }
+    }
+}
+
+/** A walk through poses is as many cold solves, also where paths wrap over many objects. (2026-11-27: of paths that
+were continued freely, ContactMode::Free, one came to be 13 mm longer.) */
+TEST(DataPathStudy, WalkedAnswersAreThoseOfColdSolves) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    for (const char* name : {"ThoracoscapularShoulderModel", "Rajagopal2016", "arm26"}) {
+        SCOPED_TRACE(name);
+        const ModelDescription model =
+            readOsimFile(shared / "data" / "opensim" / "models" / (std::string(name) + ".osim"), {{}, true});
+        PathStudy walked(model);
+        constexpr int kNumFrames = 120, kColdEvery = 15;
+        for (int frame = 0; frame < kNumFrames; ++frame) {
+            ModelPose pose;
+            int k = 0;
+            for (const char* coordinate :
+                 {"shoulder_elv", "plane_elv", "hip_flexion_r", "knee_angle_r", "r_shoulder_elev", "r_elbow_flex"})
+                if (findCoordinate(model, coordinate))
+                    pose.values[coordinate] = 0.5 + 0.5 * std::sin(0.05 * frame + 1.3 * k++);
+            const PoseAnswer warm = walked.solve(pose);
+            if (frame % kColdEvery != 0) continue;
+            PathStudy fresh(model);
+            const PoseAnswer cold = fresh.solve(pose);
+            for (std::size_t p = 0; p < cold.paths.size(); ++p) {
+                EXPECT_EQ(warm.paths[p].status, cold.paths[p].status) << cold.paths[p].explanation;
+                EXPECT_NEAR(warm.paths[p].length, cold.paths[p].length, 1e-12) << walked.getPaths()[p].name;
+            }
         }
     }
 }
