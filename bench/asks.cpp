@@ -29,7 +29,7 @@ double calcQuantile(std::vector<double> values, double q) {
 
 struct Tally {
     std::array<int, kNumOutcomes> counts{};
-    int alarms = 0;  ///< found, but said not to follow the hints
+    int alarms = 0;  ///< found, but said not to follow the hints, or to depend on its history
     std::vector<double> times, shots;
 
     int get(Outcome outcome) const { return counts[static_cast<int>(outcome)]; }
@@ -55,7 +55,7 @@ public:
         for (const std::string& name : {family, family + ", " + kind}) {
             Tally& tally = m_tallies[name];
             ++tally.counts[static_cast<int>(outcome)];
-            tally.alarms += outcome == Outcome::Found && !path.followsHints();
+            tally.alarms += outcome == Outcome::Found && (!path.followsHints() || path.dependsOnHistory());
             tally.times.push_back(seconds);
             tally.shots.push_back(path.shots);
         }
@@ -126,7 +126,7 @@ void walk(unsigned seed, Report& report) {
         solve(solver, scene.getProblem(), pose, walked);
         const PathSolution cold = solvePath(scene.getProblem(), pose);
         const auto isSaid = [](const PathSolution& path) {
-            return path.status != PathStatus::Solved || !path.followsHints();
+            return path.status != PathStatus::Solved || !path.followsHints() || path.dependsOnHistory();
         };
         const bool isEqual = std::abs(walked.length / cold.length - 1) < 1e-9 && walked.status == cold.status;
         const Outcome other = isSaid(walked) || isSaid(cold) ? Outcome::Said : Outcome::Silent;
@@ -167,18 +167,6 @@ void solveGrooves(unsigned seed, Report& report) {
     if (seed % 100 != 1) return;
     PathSolution swept;
     for (int i = 0; i <= 200; ++i) add("swept", GrooveScene(Vec3(0.03, 0.2, 0), Vec3(0.03 - 5e-4 * i, -0.2, 0)), swept);
-}
-
-/** The sides on which a path lies, as a user who knows it would name them: across the axes. */
-PathProblem addSides(PathProblem problem, const PathSolution& path) {
-    for (int e = 0; e < problem.getNumElements(); ++e) {
-        if (!path.contacts[e].isTouched) continue;
-        const Geodesic& arc = path.contacts[e].geodesic;
-        Vec3 side = arc.P.x + arc.Q.x;
-        side.z() = 0;
-        problem.setHint(e, PassOnSide{side});
-    }
-    return problem;
 }
 
 /** Long chains without hints, and with the sides of what was found so. */

@@ -6,6 +6,7 @@
 
 #include "paths/length_minimizer.h"
 #include "paths/second_variation.h"
+#include "support/moving_scenes.h"
 #include "support/path_scene.h"
 #include "support/random.h"
 #include "support/random_scene.h"
@@ -32,6 +33,30 @@ TEST(StartStrategy, InsertedAnswersAnOrdinaryColdSolve) {
     EXPECT_EQ(path.report.bandLevel, 0);
     EXPECT_TRUE(path.wasCold);
     EXPECT_LT(path.shots, 20);
+}
+
+// The arc begun with is that of the string over the osculating circle: in a plane over a cylinder, the answer.
+TEST(StartStrategy, AnObstacleIsTouchedByTheArcOfItsCircle) {
+    for (const double depth : {1e-6, 1e-3, 0.1, 0.4}) {
+        const PathScene scene =
+            makeScene(std::make_shared<Cylinder>(0.5), {}, Vec3(-20, 0.5 - depth, 0), Vec3(0.7, 0.5 - depth, 0));
+        const PathSolution path = scene.solve();
+        EXPECT_EQ(path.status, PathStatus::Solved) << "depth " << depth;
+        EXPECT_LE(path.iterations, 1) << "depth " << depth;
+    }
+}
+
+// Turns about cylinders are laid where the line passes them, however far away its ends are.
+TEST(StartStrategy, SidesOfALongChainAreFollowed) {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        const PosedPath chain = UserChain(20, UserChain::Hints::None, seed).getPath();
+        const PathSolution free = solvePath(chain.problem, chain.pose);
+        const PathProblem asked = addSides(chain.problem, free);
+        const PathSolution path = solvePath(asked, chain.pose);
+        EXPECT_EQ(path.status, PathStatus::Solved) << "seed " << seed;
+        EXPECT_TRUE(path.followsHints()) << "seed " << seed;
+        EXPECT_NEAR(path.length, free.length, 1e-6) << "seed " << seed;
+    }
 }
 
 TEST(StartStrategy, ContinuedAnswersAWarmSolve) {

@@ -76,6 +76,18 @@ private:
     PosedPath m_path;
 };
 
+/** The sides on which a path lies, as a user who knows it would name them: across the axes. */
+inline PathProblem addSides(PathProblem problem, const PathSolution& path) {
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!path.contacts[e].isTouched) continue;
+        const Geodesic& arc = path.contacts[e].geodesic;
+        Vec3 side = arc.P.x + arc.Q.x;
+        side.z() = 0;
+        problem.setHint(e, PassOnSide{side});
+    }
+    return problem;
+}
+
 /** A scene of the asked ones, or a short chain, on a smooth walk: each element to and fro and about by sums of waves.
  */
 class WalkedScene {

@@ -12,8 +12,10 @@ namespace {
 
 using Condition = PathVerification::Condition;
 
-/** Below zero by how much a lifted obstacle is penetrated, beyond the tolerance of contact; else 0. */
+/** Below zero by how much an obstacle that is lifted, but could be touched, is penetrated beyond the tolerance of
+contact; else 0. */
 double calcExcess(const ObstacleContact& contact) {
+    if (contact.isTouched || contact.isSwitchedOff || contact.yields) return 0;
     const double depth = contact.clearance.distance * contact.clearance.scale;
     return depth < kContactTolerance ? depth : 0;
 }
@@ -38,9 +40,9 @@ int findDeepest(const PosedProblem& scene, const PathSolution& path) {
     int deepest = -1;
     double depth = 0;
     scene.forEachObstacle([&](int e) {
-        const ObstacleContact& contact = path.contacts[e];
-        if (contact.isTouched || contact.isSwitchedOff || contact.yields || !(calcExcess(contact) < depth)) return;
-        depth = calcExcess(contact);
+        const double excess = calcExcess(path.contacts[e]);
+        if (!(excess < depth)) return;
+        depth = excess;
         deepest = e;
     });
     return deepest;
@@ -50,7 +52,9 @@ int findDeepest(const PosedProblem& scene, const PathSolution& path) {
 
 void goBack(const PathSolution& earlier, PathSolution& path) {
     const int iterations = path.iterations, shots = path.shots;
-    const SolveReport report = path.report;
+    SolveReport report = path.report;
+    report.strategy = earlier.report.strategy;
+    report.bandLevel = earlier.report.bandLevel;
     path = earlier;
     path.iterations = iterations;
     path.shots = shots;
@@ -112,7 +116,7 @@ void LocalSolver::touchDeepest(const PosedProblem& scene, PathSolution& path) {
     m_deepest.assign(path.segments.size(), -1);
     scene.forEachObstacle([&](int e) {
         const ObstacleContact& contact = path.contacts[e];
-        if (contact.isTouched || contact.isSwitchedOff || contact.yields || !(calcExcess(contact) < 0)) return;
+        if (!(calcExcess(contact) < 0)) return;
         int& deepest = m_deepest[contact.segment];
         if (deepest < 0 || calcExcess(contact) < calcExcess(path.contacts[deepest])) deepest = e;
     });
@@ -149,7 +153,8 @@ bool LocalSolver::minimize(const PosedProblem& scene, PathSolution& path) {
     const int before = path.iterations;
     const bool isStationary = m_minimizer.minimize(scene.problem, scene.pose, m_numDescents, path);
     m_numDescents -= path.iterations - before;
-    return isStationary;
+    if (isStationary) return true;
+    return path.pathError < kNearlyStationary && m_newton.iterate(scene.problem, scene.pose, path);
 }
 
 /** The starts from which the last contact set was solved. */

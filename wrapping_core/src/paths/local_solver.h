@@ -11,15 +11,16 @@ namespace tautline {
 Each turn solves the path error of the contact set (findStationaryPath()), asks for the first condition of a minimum
 that is broken, and acts on it:
 
-| condition       | action                                                  | after |
-|-----------------|---------------------------------------------------------|-------------------------------------------|
-| None            | done: a minimum                                         | | | NotStationary   | given up | | |
-NegativeLength  | the obstacle is lifted                                  | thesis Sec. 6.3                           |
-| Penetration     | the deepest obstacle of each straight segment is touched| thesis Sec. 6.2, 7.6 | |                 |
-given up where a segment meets the surface it has left  | one arc cannot say that                   | | ReversedTangent
-| the arc is turned round to where e = t                  | thesis Eqn. 4.3: eps vanishes at e = -t   | | Unstable |
-along the direction of negative curvature, then downhill| More and Sorensen 1979                    | | others | given
-up: only a string that bends inside an arc leads on (elastic_band.h)                         |
+| condition       | action                                                    | after                                |
+|-----------------|-----------------------------------------------------------|--------------------------------------|
+| None            | done: a minimum                                           |                                      |
+| NotStationary   | given up                                                  |                                      |
+| NegativeLength  | the obstacle is lifted                                    | thesis Sec. 6.3                      |
+| Penetration     | the deepest obstacle of each straight segment is touched; | thesis Sec. 6.2, 7.6                 |
+|                 | given up where a segment meets the surface it has left    | one arc cannot say that              |
+| ReversedTangent | the arc is turned round to where e = t                    | Eqn. 4.3: eps vanishes at e = -t too |
+| Unstable        | along the direction of negative curvature, then downhill  | More and Sorensen 1979               |
+| others          | given up: only a band that bends inside an arc leads on   | elastic_band.h                       |
 
 Holds the workspace; answers do not depend on it. */
 class LocalSolver {

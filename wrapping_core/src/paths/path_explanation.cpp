@@ -174,6 +174,8 @@ std::string describe(const RouteDeviation& deviation, const PathProblem& problem
             return "not with the turns about " + name + " that are asked for";
         case RouteDeviation::Kind::Threading:
             return "not through the hole of " + name + " as is asked for";
+        case RouteDeviation::Kind::Continued:
+            return "continued round " + name + " as a search from this pose alone would not begin";
         case RouteDeviation::Kind::None:
             break;
     }
@@ -189,7 +191,8 @@ std::string explainLeftHole(const PathProblem& problem, const PathSolution& path
 
 std::string explainSolved(const PathProblem& problem, const PathSolution& path) {
     const std::string minimum = "a local minimum";
-    return path.followsHints() ? minimum : minimum + ", but " + describe(path.deviation, problem);
+    if (path.deviation.kind == RouteDeviation::Kind::None) return minimum;
+    return minimum + ", but " + describe(path.deviation, problem);
 }
 
 /** Of a path whose error vanishes: the condition that does not hold. */

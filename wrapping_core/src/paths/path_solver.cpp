@@ -19,6 +19,11 @@ namespace {
 constexpr double kEndHeight = 1e-7;  ///< of ends that lie on a surface, in its sizes
 constexpr double kFarAway = 1e3;     ///< distance from ground's origin over span: three digits of a coordinate are lost
 
+/** Whether a path came from the one that was given. */
+bool isLaidFromPrevious(const PathSolution& path) {
+    return path.report.strategy == StartStrategy::Continued || path.report.strategy == StartStrategy::AlongPrevious;
+}
+
 }  // namespace
 
 /** What a solve needs besides its path, kept so that a warm one allocates nothing. */
@@ -182,6 +187,8 @@ void PathSolver::finish(const PathProblem& problem, const PathPose& pose, bool i
     updatePassages(scene, isConverged, path);
     if (path.wasCold) giveUpLostHoles(path);
     if (isConverged && problem.hasHints() && path.followsHints()) path.deviation = findDeviation(scene, path);
+    if (isConverged && isLaidFromPrevious(path) && path.followsHints())
+        path.deviation = findContinuedDeviation(scene, path);
     path.status = isConverged ? PathStatus::Solved : PathStatus::NotConverged;
     if (!isConverged) return;
     scene.forEachObstacle([&](int e) {

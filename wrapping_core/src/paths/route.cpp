@@ -80,14 +80,33 @@ Vec3 findLowestPoint(const Surface& surface, const Chord& chord) {
     return chord.A_S + surface.findLowestPoint(chord.A_S, e, length) * e;
 }
 
-/** Turns about the z axis from the chord's begin to its end, by this angle. */
+/** Of a tangent to a circle of radius R about the z axis, from a point outside. */
+struct CircleTangent {
+    double angle;   ///< between the point and the tangent point, as seen from the axis
+    double length;  ///< across the axis
+
+    CircleTangent(double radius, const Vec3& p_S) {
+        const double rho = p_S.head<2>().norm();
+        angle = std::acos(std::min(1.0, radius / rho));
+        length = std::sqrt(std::max(0.0, rho * rho - radius * radius));
+    }
+};
+
+/** Turns about the z axis by this angle from the chord's begin to its end, as a string about a circular cylinder does:
+tangent lines and a helix, which is straight where the cylinder is unrolled. */
 void layTurn(const Surface& surface, const Chord& chord, double turn, std::vector<Vec3>& waypoints_S) {
-    const double from = calcAzimuth(chord.A_S);
-    const int count = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / (2 * kPi) * kWaypointsPerTurn)));
+    const double middle = calcAzimuth(chord.A_S) + turn / 2;
+    const double radius = findOutermostPoint(surface, middle, 0.5 * (chord.A_S.z() + chord.B_S.z())).head<2>().norm();
+    const CircleTangent atA(radius, chord.A_S), atB(radius, chord.B_S);
+    const double touching = std::max(0.0, std::abs(turn) - atA.angle - atB.angle);
+    const double unrolled = atA.length + radius * touching + atB.length;
+    const int count = std::max(1, static_cast<int>(std::ceil(touching / (2 * kPi) * kWaypointsPerTurn)));
     for (int i = 0; i < count; ++i) {
-        const double fraction = (i + 0.5) / count;
-        const double z = chord.A_S.z() + fraction * (chord.B_S.z() - chord.A_S.z());
-        waypoints_S.push_back(findOutermostPoint(surface, from + fraction * turn, z));
+        const double along = (i + 0.5) / count * touching;
+        const double azimuth = calcAzimuth(chord.A_S) + std::copysign(atA.angle + along, turn);
+        const double fraction = unrolled > 0 ? (atA.length + radius * along) / unrolled : 0.5;
+        waypoints_S.push_back(
+            findOutermostPoint(surface, azimuth, chord.A_S.z() + fraction * (chord.B_S.z() - chord.A_S.z())));
     }
 }
 
@@ -100,8 +119,7 @@ double calcTurnToSide(const Surface& surface, const Chord& chord, const Vec3& si
     // A string meets a circle of radius R at acos(R/rho) from where it comes: that shifts the middle of its arc.
     const double z = 0.5 * (chord.A_S.z() + chord.B_S.z());
     const double radius = findOutermostPoint(surface, side, z).head<2>().norm();
-    const auto calcTangentAngle = [&](const Vec3& p) { return std::acos(std::min(1.0, radius / p.head<2>().norm())); };
-    const double shift = (calcTangentAngle(chord.A_S) - calcTangentAngle(chord.B_S)) / 2;
+    const double shift = (CircleTangent(radius, chord.A_S).angle - CircleTangent(radius, chord.B_S).angle) / 2;
     const double onForward = std::cos(middle + shift - side), onBackward = -std::cos(middle - shift - side);
     const bool isForward = (onForward >= 0) == (onBackward >= 0)
                                ? (onForward >= 0 ? forward <= kPi : std::cos(middle - side) >= 0)
@@ -109,12 +127,22 @@ double calcTurnToSide(const Surface& surface, const Chord& chord, const Vec3& si
     return isForward ? forward : forward - 2 * kPi;
 }
 
+/** Where the straight line passes a body. */
+struct LinePassage {
+    Vec3 D;         ///< the lowest point, in S
+    bool isClear;   ///< of the body
+    bool isOnSide;  ///< that is asked for
+
+    LinePassage(const PathElement& element, const Chord& chord) : D(findLowestPoint(*element.surface, chord)) {
+        isClear = element.surface->calcHeight(D) > 0;
+        isOnSide = element.side_S.dot(D) >= -kOnTheEdge * element.surface->getSize();
+    }
+};
+
 /** Nothing where the line is clear on the side that is asked for. */
 void guideToSide(const PathElement& element, const Vec3& point_S, const Chord& chord, std::vector<Vec3>& waypoints_S) {
     const Surface& surface = *element.surface;
-    const Vec3 D = findLowestPoint(surface, chord);
-    const bool isClear = surface.calcHeight(D) > 0;
-    const bool isOnSide = element.side_S.dot(D) >= -kOnTheEdge * surface.getSize();
+    const auto [D, isClear, isOnSide] = LinePassage(element, chord);
     if (element.isEndless) {
         if (!element.side_S.allFinite() || (isClear && isOnSide)) return;
         layTurn(surface, chord, calcTurnToSide(surface, chord, element.side_S), waypoints_S);
@@ -229,6 +257,13 @@ void guideOverSunken(const PosedProblem& scene, const PathSolution& previous, Wa
 }
 
 }  // namespace
+
+double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S) {
+    const Chord chord{A_S, B_S};
+    const LinePassage line(element, chord);
+    if (!(line.isClear && line.isOnSide)) return calcTurnToSide(*element.surface, chord, element.side_S);
+    return std::remainder(calcAzimuth(B_S) - calcAzimuth(A_S), 2 * kPi);
+}
 
 Route calcAskedRoute(const PosedProblem& scene) {
     Route route{Waypoints(scene.size()), PassageRule{std::vector<int>(scene.size(), PassageRule::kAny)}};

@@ -20,6 +20,10 @@ struct Route {
 body (PathElement::isEndless) a side is a homotopy class, and is laid as the turn about the axis that leads to it. */
 Route calcAskedRoute(const PosedProblem& scene);
 
+/** By how much a string from A to B is asked to turn about the axis of an endless body with a side, as
+calcAskedRoute() lays it. @param A_S, B_S   in S; the angle from x to y [rad] */
+double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S);
+
 /** Along a previous path: its arcs, and where it went through the holes of obstacles that it did not touch. */
 Route calcPreviousRoute(const PosedProblem& scene, const PathSolution& previous);
 

@@ -16,13 +16,12 @@ using Kind = RouteDeviation::Kind;
 
 constexpr double kOnTheEdge = 1e-9;  ///< of a unit vector or a size, by which a side may be missed in rounding
 
-/** By how much a path turns about the z axis of S between the far ends of the segments beside its arc, positive from x
-to y [rad]: pieces of the arc turn by so little that the way round is plain. */
-double calcTurning(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact, const StraightSegment& in,
-                   const StraightSegment& out) {
+/** By how much a path turns about the z axis of S from A to B, which lie before and after its arc on straight lines,
+positive from x to y [rad]: pieces of the arc turn by so little that the way round is plain. */
+double calcTurning(const Surface& surface, const ObstacleContact& contact, const Vec3& A_S, const Vec3& B_S) {
     constexpr double kMostPieces = 2000;
     double turning = 0;
-    Vec3 last = X_GS.shiftBack(in.A);
+    Vec3 last = A_S;
     const auto goTo = [&](const Vec3& p) {
         turning += std::atan2(last.x() * p.y() - last.y() * p.x(), last.head<2>().dot(p.head<2>()));
         last = p;
@@ -35,9 +34,12 @@ double calcTurning(const Surface& surface, const Pose& X_GS, const ObstacleConta
         goTo(arc.P.x);
         for (int i = 0; i < pieces; ++i) goTo(walker.next().Q.x);
     }
-    goTo(X_GS.shiftBack(out.B));
+    goTo(B_S);
     return turning;
 }
+
+constexpr double kRoundingOfTurns = 1e-9;  ///< [rad]
+constexpr double kCosineOfNear = 0.5;      ///< 60 degrees: minima of one body that lie nearer to each other are few
 
 /** By how much an arc turns, at least nearly [rad]. */
 double calcTurn(const ObstacleContact& contact) {
@@ -127,7 +129,9 @@ bool turnsAsRoute(const PosedProblem& scene, const PathSolution& path, int e, in
                   const RoutePlace& route) {
     const StraightSegment &before = path.segments[in], &after = path.segments[out];
     const double asked = calcRouteTurning(scene.getPose(e), route.from_G, route.waypoints, route.to_G);
-    const double turning = calcTurning(scene.getSurface(e), scene.getPose(e), path.contacts[e], before, after);
+    const Pose& X_GS = scene.getPose(e);
+    const double turning =
+        calcTurning(scene.getSurface(e), path.contacts[e], X_GS.shiftBack(before.A), X_GS.shiftBack(after.B));
     // Where the neighbors stand elsewhere than the waypoints, half a turn says too little.
     const bool isBetweenPoints = scene.isPoint(before.fromElement) && scene.isPoint(after.toElement);
     return std::abs(turning - asked) < (isBetweenPoints ? 1 : 0.5) * kPi;
@@ -154,9 +158,51 @@ bool liesWhereEndsPull(const PosedProblem& scene, int e, const ObstacleContact& 
     const auto calcAside = [&](const Vec3& v) { return Vec3(v - axis.dot(v) * axis).normalized(); };
     const Vec3 pull = X_GS.shiftBack(route.from_G).normalized() + X_GS.shiftBack(route.to_G).normalized();
     return calcAside(pull).dot(calcAside(contact.geodesic.P.x + contact.geodesic.Q.x)) > kClear;
+/** Whether a string over an endless body turns from A to B by half a turn at most: settled without a walk along the
+arc where both that and the way from A to B are the same by less than half a turn. */
+bool turnsTheShortWay(const ObstacleContact& contact, const Vec3& A_S, const Vec3& B_S) {
+    constexpr double kQuarterTurn = 0.5 * kPi;
+    const DarbouxFrame& P = contact.geodesic.P;
+    const auto calcMoment = [](const Vec3& a, const Vec3& b) { return a.x() * b.y() - a.y() * b.x(); };
+    return calcTurn(contact) < kQuarterTurn && calcMoment(P.x, P.t) * calcMoment(A_S, B_S) > 0;
+}
+
+/** Whether a string over a body, between straight lines from A and to B, runs otherwise than a search would begin. */
+bool hasComeRound(const PathElement& element, const ObstacleContact& contact, const Vec3& A_S, const Vec3& B_S) {
+    const Surface& surface = *element.surface;
+    const bool hasSide = element.side_S.allFinite();
+    if (element.isEndless) {
+        if (turnsTheShortWay(contact, A_S, B_S)) return false;
+        const double turning = calcTurning(surface, contact, A_S, B_S);
+        const double asked = hasSide && std::abs(turning) > kPi ? calcAskedTurn(element, A_S, B_S) : 0;
+        return std::abs(turning - asked) > kPi + kRoundingOfTurns;
+    }
+    // A search begins where the line passes the middle of the body, or else on the side asked for.
+    const Vec3 step = B_S - A_S;
+    const Vec3 D = A_S + std::clamp(-A_S.dot(step) / step.squaredNorm(), 0.0, 1.0) * step;
+    const Vec3& begin = hasSide && D.dot(element.side_S) < 0 ? element.side_S : D;
+    return begin.dot(calcMiddleNormal(surface, contact).normalized()) < kCosineOfNear * begin.norm();
 }
 
 }  // namespace
+
+RouteDeviation findContinuedDeviation(const PosedProblem& scene, const PathSolution& path) {
+    int before = 0, after = 0;
+    for (int e = 0; e < scene.size(); ++e) {
+        if (!scene.pose.hasElement(e)) continue;
+        if (scene.isPoint(e)) before = e;
+        const PathElement& element = scene.problem.getElement(e);
+        const ObstacleContact& contact = path.contacts[e];
+        const bool isJudged = !scene.isPoint(e) && contact.isTouched && !contact.isSwitchedOff &&
+                              !std::holds_alternative<WindAround>(element.hint) && !contact.passage.isKnown();
+        if (!isJudged) continue;
+        while (after <= e || !scene.isPoint(after) || !scene.pose.hasElement(after)) ++after;
+        const Pose& X_GS = scene.getPose(e);
+        const Vec3 A_S = X_GS.shiftBack(scene.getPose(before).p), B_S = X_GS.shiftBack(scene.getPose(after).p);
+        if (hasComeRound(element, contact, A_S, B_S)) return {Kind::Continued, e};
+    }
+    return {};
+}
 
 RouteDeviation findSideDeviation(const PosedProblem& scene, const PathSolution& path) {
     RouteDeviation deviation;
@@ -165,8 +211,9 @@ RouteDeviation findSideDeviation(const PosedProblem& scene, const PathSolution& 
         const ObstacleContact& contact = path.contacts[e];
         if (deviation.kind != Kind::None || contact.isSwitchedOff) return;
         if (const auto* winding = std::get_if<WindAround>(&element.hint)) {
-            const double turning =
-                calcTurning(*element.surface, scene.getPose(e), contact, path.segments[in], path.segments[out]);
+            const Pose& X_GS = scene.getPose(e);
+            const double turning = calcTurning(*element.surface, contact, X_GS.shiftBack(path.segments[in].A),
+                                               X_GS.shiftBack(path.segments[out].B));
             const bool isBetweenPoints =
                 scene.isPoint(path.segments[in].fromElement) && scene.isPoint(path.segments[out].toElement);
             if (!turnsAsOften(*winding, turning, isBetweenPoints)) deviation = {Kind::Winding, e};

@@ -10,7 +10,14 @@ where its segment comes nearest.
 @param path   solved, its passages noted (threading.h) */
 RouteDeviation findDeviation(const PosedProblem& scene, const PathSolution& path);
 
-/** The same of sides and turns alone, where passages are judged otherwise. */
+/** The first obstacle that a continued path, which follows its hints, passes as it does only because it was continued
+(RouteDeviation::Kind::Continued): about an endless body it turns otherwise than the straight line between the fixed
+points beside it, or than its side asks; any other body it passes far from where that line, or its side, is. A rule that
+costs next to nothing: of poses on random walks it misses 0.2 % of the paths that are not where a cold solve ends.
+Obstacles with a hole are judged by their passages. */
+RouteDeviation findContinuedDeviation(const PosedProblem& scene, const PathSolution& path);
+
+/** The first hint of a side or of turns that it does not follow, where passages are judged otherwise. */
 RouteDeviation findSideDeviation(const PosedProblem& scene, const PathSolution& path);
 
 /** Whether a minimum runs as one that is found anew in its pose has to: as the hints ask, past an obstacle without a

@@ -39,6 +39,9 @@ inline constexpr int kMaxBandMoves = 6;
 /** Iterations of the minimizer while contacts are inserted from the straight line: beyond that a band is cheaper. */
 inline constexpr int kMaxInsertionDescents = 12;
 
+/** Path error below which Newton's method goes on where the minimizer has used up its iterations. */
+inline constexpr double kNearlyStationary = 1e-2;
+
 /** Geodesics shot per element after which no further search begins: scenes that are solved need half as many. */
 inline constexpr int kMaxShotsPerElement = 20000;
 

@@ -34,6 +34,17 @@ bool hasLoops(const PosedProblem& scene, const Route& route) {
     return hasLoops;
 }
 
+/** Whether sides are all that is asked for: any path on them will do. */
+bool hasSidesAlone(const PosedProblem& scene) {
+    bool hasOthers = false;
+    scene.forEachObstacle([&](int e) {
+        const StartHint& hint = scene.getHint(e);
+        const bool isFree = std::holds_alternative<std::monostate>(hint) && !scene.getSurface(e).getHole();
+        hasOthers = hasOthers || !(isFree || std::holds_alternative<PassOnSide>(hint));
+    });
+    return scene.problem.hasHints() && !hasOthers;
+}
+
 /** Whether a string rests where it shows a fault, so that no finer one would show another. */
 bool isAtRest(const StringFault& fault) {
     using Kind = StringFault::Kind;
@@ -105,20 +116,19 @@ bool PathSearch::canRelease() const {
     return canSearch() && m_bestRank < Rank::MinimumElsewhere && hasHints();
 }
 
+/** Whether the asked route is one of several: it has hints, or rings that are to be passed as the straight line does.
+ */
 bool PathSearch::hasHints() const {
-    bool hasHints = false;
-    m_scene->forEachObstacle([&](int e) {
-        hasHints = hasHints || !std::holds_alternative<std::monostate>(m_scene->getHint(e)) ||
-                   m_asked.threading.counts[e] != PassageRule::kAny;
-    });
-    return hasHints;
+    const std::vector<int>& counts = m_asked.threading.counts;
+    return m_scene->problem.hasHints() ||
+           std::any_of(counts.begin(), counts.end(), [](int count) { return count != PassageRule::kAny; });
 }
 
 PathSearch::Rank PathSearch::judge(const PathVerification& broken, const PassageRule& threading, bool keepsSides,
                                    const PathSolution& path) const {
     // Where e = -t the path error vanishes, but the length is not stationary.
     if (broken.condition == Condition::NotStationary || broken.condition == Condition::ReversedTangent)
-        return Rank::NotStationary;
+        return Rank::Lost;
     if (!broken.isMinimum()) return Rank::Stationary;
     if (!hasRightPassages(*m_scene, threading, path)) return Rank::MinimumElsewhere;
     if (m_isLoose && !hasRightPassages(*m_scene, PassageRule(), path)) return Rank::MinimumElsewhere;
@@ -167,6 +177,10 @@ void PathSearch::layAlongPrevious(PathSolution& path) {
 void PathSearch::insertContacts(PathSolution& path) {
     m_asked = calcAskedRoute(*m_scene);
     solveInserted(m_asked, path);
+    if (m_bestRank == Rank::Minimum || !hasSidesAlone(*m_scene)) return;
+    Route straight = calcReleasedRoute(*m_scene);
+    straight.threading = m_asked.threading;
+    solveInserted(straight, path);
 }
 
 void PathSearch::layAlongAskedRoute(PathSolution& path) {
@@ -178,8 +192,6 @@ void PathSearch::layAlongAskedRoute(PathSolution& path) {
 void PathSearch::release(PathSolution& path) {
     const Route released = calcReleasedRoute(*m_scene);
     const StringFault fault = m_best.fault;
-    solveInserted(released, path);
-    if (m_bestRank >= Rank::MinimumElsewhere) return;
     m_band.beginSearch();
     solveAlongBand(released, true, path);
     // Where nothing is known against the hinted string, what keeps the free one from a minimum is the reason.
@@ -226,50 +238,52 @@ void PathSearch::solveAlongBand(const Route& route, bool keepsSides, PathSolutio
     int level = 0;
     for (const BandLevel& band : kBandLevels) {
         path.report.bandLevel = ++level;
-        tightenBand(band, route, keepsSides, path);
-        freeBand(route, keepsSides, path);
+        const Rank rank = freeBand(tightenBand(band, route, keepsSides, path), route, keepsSides, path);
         // A band that has slipped off the route shows nothing more; one that rests there, but is not smooth, may.
-        const bool hasSlipped = m_lastRank == Rank::MinimumElsewhere && !isAtRest(m_band.findFault(m_scene->problem));
+        const bool hasSlipped = rank == Rank::MinimumElsewhere && !isAtRest(m_band.findFault(m_scene->problem));
         if (m_bestRank == Rank::Minimum || hasSlipped) return;
     }
     // A band in which nothing is wrong may still slide, slower than was asked for.
     const StringFault::Kind fault = m_band.findFault(m_scene->problem).kind;
     if (fault == StringFault::Kind::Sliding) m_band.disturb();
     const bool mayMove = fault == StringFault::Kind::None || fault == StringFault::Kind::Sliding;
-    if (mayMove && tightenBand(kPatientBand, route, keepsSides, path)) return;
+    if (mayMove && tightenBand(kPatientBand, route, keepsSides, path) == Rank::Minimum) return;
     path.fault = m_band.findFault(m_scene->problem);
 }
 
-/** @return true if the path that the relaxed band suggests leads on to a minimum on the route asked for */
-bool PathSearch::tightenBand(const BandLevel& level, const Route& route, bool keepsSides, PathSolution& path) {
+/** @return what the path is that the relaxed band leads on to */
+PathSearch::Rank PathSearch::tightenBand(const BandLevel& level, const Route& route, bool keepsSides,
+                                         PathSolution& path) {
     const PosedProblem& scene = *m_scene;
     m_broken = {Condition::NotStationary, -1};
     m_band.relax(scene.problem, level);
-    if (path.shots > kMaxShotsPerElement * scene.size()) return false;
+    if (path.shots > kMaxShotsPerElement * scene.size()) return Rank::None;
     clearContacts(path);
     m_band.extractContacts(scene, path.contacts);
     m_broken = m_local.solve(scene, path);
-    const Rank rank = m_lastRank = judge(m_broken, route.threading, keepsSides, path);
+    const Rank rank = std::max(Rank::NotStationary, judge(m_broken, route.threading, keepsSides, path));
     offer(rank, path);
     const bool isOnRoute = rank != Rank::MinimumElsewhere && hasRightPassages(scene, route.threading, path);
     if (rank >= m_atRestRank && isOnRoute) {
         m_atRestRank = rank;
         m_atRest = path;
     }
-    return rank == Rank::Minimum;
+    return rank;
 }
 
 /** An arc beyond its conjugate point is shortest among geodesics nearby, but not among curves: only the band, which can
 bend inside the arc, leads on from there. Laid symmetrically it stays, so that it is moved sideways, farther each time.
-*/
-void PathSearch::freeBand(const Route& route, bool keepsSides, PathSolution& path) {
+@param rank   of the path that the band led on to before
+@return that of the last one it leads on to */
+PathSearch::Rank PathSearch::freeBand(Rank rank, const Route& route, bool keepsSides, PathSolution& path) {
     double move = kFirstBandMove;
     for (int i = 0; i < kMaxBandMoves && m_broken.condition == Condition::ConjugatePoint; ++i, move *= 2) {
         const int e = m_broken.element;
         const Vec3 sideways_G = m_scene->getPose(e).rotate(path.contacts[e].geodesic.P.B);
         m_band.move(e, move * m_scene->getSurface(e).getSize() * sideways_G);
-        if (tightenBand(kPatientBand, route, keepsSides, path)) return;
+        rank = tightenBand(kPatientBand, route, keepsSides, path);
     }
+    return rank;
 }
 
 /** A string that rests on the route asked for, but is not one smooth path: the path next to it is the answer, or goes

@@ -13,9 +13,10 @@ until one has led to a minimum that runs as was asked.
 | Continued     | a path is given                    | its contacts                                            | us    |
 | AlongPrevious | that failed                        | an elastic band laid along it                           | ms    |
 | Inserted      | always                             | straight lines through the fixed points; obstacles are  | us    |
-|               |                                    | touched as they are met, on the sides asked for         |       |
+|               |                                    | touched as they are met, on the sides asked for; if     |       |
+|               |                                    | that fails, on the sides on which they are met          |       |
 | Band          | always                             | an elastic band laid along the route asked for          | ms    |
-| Released      | hints were given, but the band     | as the two before, without the hints                    | ms    |
+| Released      | hints were given, but the band     | as before, without the hints                            | ms    |
 |               | slipped off the route they ask for |                                                         |       |
 
 A path that could not be continued to a minimum, nor found anew, is sought again after 1, 2, 4, 8 ... steps alone.
@@ -41,7 +42,8 @@ private:
     /** How good a path is, ascending. */
     enum class Rank {
         None,              ///< none met yet
-        NotStationary,     ///< its path error does not vanish
+        Lost,              ///< its path error does not vanish
+        NotStationary,     ///< the same, but it was begun along a band: near where the string is
         Stationary,        ///< it does, but the path is not a minimum
         MinimumElsewhere,  ///< a minimum on another route than was asked
         AskedButBroken,    ///< where the string comes to rest on the route asked for, which no smooth path can say
@@ -67,8 +69,8 @@ private:
 
     void solveInserted(const Route& route, PathSolution& path);
     void solveAlongBand(const Route& route, bool keepsSides, PathSolution& path);
-    bool tightenBand(const BandLevel& level, const Route& route, bool keepsSides, PathSolution& path);
-    void freeBand(const Route& route, bool keepsSides, PathSolution& path);
+    Rank tightenBand(const BandLevel& level, const Route& route, bool keepsSides, PathSolution& path);
+    Rank freeBand(Rank rank, const Route& route, bool keepsSides, PathSolution& path);
     void acceptFault(PathSolution& path);
     void yieldInGrooves(PathSolution& path);
     void keepContactsOfBand(PathSolution& path);
@@ -93,7 +95,6 @@ private:
     PathSolution m_atRest;           ///< the best path met along the band that was laid last
     Rank m_atRestRank = Rank::None;  ///< its
     PathVerification m_broken;       ///< of the last local solve
-    Rank m_lastRank = Rank::None;    ///< its
 };
 
 }  // namespace tautline

@@ -9,13 +9,9 @@ namespace tautline {
 verifying and flagging it. Tiny, since a penetration h at touchdown makes the rate jump with h. */
 inline constexpr double kContactTolerance = -1e-10;
 
-/** Touches a lifted obstacle or lifts a touched one.
+/** Touches a lifted obstacle, with an arc of length zero where its segment just touches, or lifts a touched one.
 @param path   solved at `pose`; its contact is changed, the path is to be solved anew */
 void switchContact(const PathProblem& problem, const PathPose& pose, int element, PathSolution& path);
-
-/** Puts a lifted obstacle in contact where its clearance was measured: the start of an arc for Newton's
-method, of length zero where the line just touches. @param e_S   direction of the line, in S */
-void touchAtClearance(const Surface& surface, const Vec3& e_S, ObstacleContact& contact);
 
 /** Takes a touched obstacle out of contact; its clearance is watched on the side where the arc began. */
 void liftContact(ObstacleContact& contact);

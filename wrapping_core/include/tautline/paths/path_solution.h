@@ -67,7 +67,8 @@ struct StringFault {
     int other = -1;    ///< the second one of a groove, or the one that is met too early
 };
 
-/** Where a path runs elsewhere than was asked: the first hint that it does not follow. */
+/** Where a path runs elsewhere than was asked: the first hint that it does not follow, or else the first obstacle that
+it passes as it does only because it was continued. */
 struct RouteDeviation {
     enum class Kind {
         None,       ///< it runs as was asked
@@ -76,6 +77,8 @@ struct RouteDeviation {
         Winding,    ///< it turns about an obstacle less or more often than its hint (WindAround) says
         Threading,  ///< it goes through a ring less or more often than its hint (ThreadHole), or the straight line,
                     ///< does
+        Continued,  ///< it follows its hints, but passes an obstacle on another side, or with other turns, than a
+                    ///< search that knows this pose alone would begin with: a cold solve may find another minimum
     };
     Kind kind = Kind::None;
     int element = -1;  ///< the obstacle concerned
@@ -89,7 +92,7 @@ struct PathSolution {
     double pathError = kNaN;   ///< max |eps| (thesis Eqn. 4.3), dimensionless
     int iterations = 0;        ///< Newton iterations of this solve
     int shots = 0;             ///< geodesics shot in this solve
-    RouteDeviation deviation;  ///< where a minimum runs elsewhere than the hints ask
+    RouteDeviation deviation;  ///< where a minimum runs elsewhere than was asked
     bool wasCold = false;      ///< the start was found anew, not continued
     SolveReport report;
     std::vector<ObstacleContact> contacts;
@@ -98,7 +101,11 @@ struct PathSolution {
     std::vector<double> errorHistory;  ///< max |eps| before each Newton iteration of the last run
 
     bool isEmpty() const { return contacts.empty(); }
-    bool followsHints() const { return deviation.kind == RouteDeviation::Kind::None; }
+    bool followsHints() const {
+        return deviation.kind == RouteDeviation::Kind::None || deviation.kind == RouteDeviation::Kind::Continued;
+    }
+    /** Whether it is where it is only because it was continued (RouteDeviation::Kind::Continued). */
+    bool dependsOnHistory() const { return deviation.kind == RouteDeviation::Kind::Continued; }
 };
 
 }  // namespace tautline
