@@ -90,6 +90,18 @@ TEST(StartStrategy, AlongPreviousKeepsAStringInARingThatJumps) {
     EXPECT_EQ(path.report.strategy, StartStrategy::AlongPrevious);
 }
 
+// Two spheres of radius 0.025 that overlap, asked for on their +x side: the string rests in the groove between them, at
+// 0.432346. Nodes of a coarse band are too far apart for it, and slip off to 0.417617 on the other side.
+TEST(StartStrategy, AFinerBandRestsInTheGrooveThatACoarseOneSlipsOff) {
+    const GrooveScene scene(Vec3(0.02, 0.2, 0.001), Vec3(-0.1, -0.2, -0.001));
+    const PathSolution path = solvePath(scene.path.problem, scene.path.pose);
+    EXPECT_EQ(path.status, PathStatus::NotMinimum);
+    EXPECT_EQ(path.fault.kind, StringFault::Kind::Groove);
+    EXPECT_TRUE(path.followsHints());
+    EXPECT_NEAR(path.length, 0.432346, 0.02 * 0.432346);
+    EXPECT_GE(path.report.bandLevel, 2);
+}
+
 // A string wound about a sphere slips off, and what it becomes is said.
 TEST(StartStrategy, AStringThatSlipsOffItsRouteIsAMinimumElsewhere) {
     const PathScene scene = makeScene(std::make_shared<Sphere>(1), WindAround{3}, Vec3(-3, 0.2, 0.1), Vec3(3, 0.3, 0));

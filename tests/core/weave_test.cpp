@@ -43,8 +43,10 @@ TEST(Weave, TenCylindersHaveTheKnownMeanLength) {
 /** Length of a fine elastic string laid along a path and let go. */
 double calcRelaxedLength(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     const PosedProblem scene{problem, pose};
+    std::vector<PassedObstacle> previous;
+    rememberPath(path, previous);
     ElasticBand band;
-    band.lay(scene, calcPreviousRoute(scene, path).waypoints);
+    band.lay(scene, calcPreviousRoute(scene, previous).waypoints);
     band.relax(problem, {0.25, 1e-6, 6000});
     double length = 0;
     for (std::size_t k = 0; k + 1 < band.getNodes().size(); ++k)

@@ -11,15 +11,12 @@
 #include "tautline/paths/contact_witness.h"
 #include "tautline/paths/path_stability.h"
 #include "tautline/paths/path_verification.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 namespace {
 
-/** An event is found where a witness has fallen through zero, but solved once more it may be above by rounding. */
-constexpr double kWitnessRounding = 1e-12, kMarginRounding = 1e-8;
-
-constexpr int kRefinements = 3;     ///< of Newton's method
-constexpr double kSettled = 1e-14;  ///< path error of a path whose contacts are judged
+constexpr int kRefinements = 3;  ///< of Newton's method
 
 bool holds(const PathStability& stability) {
     return stability.margin > kSlipMargin + kMarginRounding;
@@ -49,10 +46,9 @@ bool isMinimum(const PathSolution& path) {
 /** Lets the solver go on from a path that is no minimum. @return true if it has come to one that is no longer */
 bool goOn(PathSolver& solver, const PathProblem& problem, const PathPose& pose, const PathSolution& from,
           PathSolution& path) {
-    constexpr double kRounding = 1e-12;
     PathSolution next = from;
     solver.solve(problem, pose, next);
-    if (!isMinimum(next) || !(next.length <= (1 + kRounding) * path.length)) return false;
+    if (!isMinimum(next) || !(next.length <= (1 + kLengthRounding) * path.length)) return false;
     path = next;
     return true;
 }
@@ -93,8 +89,7 @@ bool solveAnew(PathSolver& solver, const PathProblem& problem, const PathPose& p
 watched on a side where it does not pass. */
 bool hasSlipped(const PathProblem& problem, const PathPose& pose, const PathSolution& before,
                 const PathSolution& after) {
-    constexpr double kContinuous = 1e-9;  // of the length
-    if (!(std::abs(after.length / before.length - 1) < kContinuous)) return true;
+    if (!(std::abs(after.length / before.length - 1) < kContinuousLength)) return true;
     return before.status != PathStatus::NotConverged && !holds(calcPathStability(problem, pose, before));
 }
 
@@ -106,7 +101,7 @@ void ContactSettler::refine(const PathSolver& solver, const PathProblem& problem
                             PathSolution& path) {
     if (!m_refiner) {
         PathSolverOptions options = solver.getOptions();
-        options.pathErrorTolerance = std::min(options.pathErrorTolerance, kSettled);
+        options.pathErrorTolerance = std::min(options.pathErrorTolerance, kSettledError);
         options.maxIterations = std::min(options.maxIterations, kRefinements);
         m_refiner.emplace(options);
     }

@@ -7,6 +7,7 @@
 
 #include "surfaces/closest_approach.h"
 #include "tautline/paths/contact_switch.h"
+#include "tautline/paths/tolerances.h"
 #include "tautline/surfaces/geodesic_events.h"
 
 namespace tautline {

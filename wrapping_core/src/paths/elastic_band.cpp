@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tautline/paths/contact_switch.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 namespace {

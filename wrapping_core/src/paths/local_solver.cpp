@@ -6,6 +6,7 @@
 #include "paths/second_variation.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/segment_clearance.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 namespace {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "surfaces/arc_walker.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 
@@ -99,8 +100,7 @@ const StraightSegment* findRoundedSegment(const PathSolution& path) {
 
 /** Two obstacles of which the arc on one passes below the surface of the other: they overlap where the path passes. */
 StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
-    constexpr int kSamples = 9;         // of an arc
-    constexpr double kOverlap = -1e-6;  // in sizes: deeper than two solved contacts that only touch
+    constexpr int kSamples = 9;  // of an arc
     std::vector<Vec3> arc_S;
     const auto isBelow = [&](int e, int other) {
         const Surface& surface = *problem.getElement(other).surface;

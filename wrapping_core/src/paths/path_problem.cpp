@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tautline/error.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 namespace {
@@ -38,15 +39,13 @@ bool isEndlessAlongZ(const Surface& surface) {
     return isInside(kFar) && isInside(-kFar);
 }
 
-constexpr double kOnAxis = 1e-9;  ///< in sizes: a point so near the axis of an endless body lies on no side of it
-
 /** The side on which a hint asks the path to run: that of its direction, or outward at the foot of its point. Along the
 axis of an endless body there are no sides. */
 Vec3 calcSide(const StartHint& hint, const Surface& surface, bool isEndless) {
     Vec3 side = Vec3::Constant(kNaN);
     if (const auto* asked = std::get_if<PassOnSide>(&hint)) side = asked->direction_S;
     const auto* near = std::get_if<PassNear>(&hint);
-    const bool isOnAxis = near && isEndless && !(near->point_S.head<2>().norm() > kOnAxis * surface.getSize());
+    const bool isOnAxis = near && isEndless && !(near->point_S.head<2>().norm() > kOnTheAxis * surface.getSize());
     if (near && !isOnAxis) side = surface.calcFrame(surface.findSurfacePoint(near->point_S), Vec3(0.48, 0.64, 0.6)).N;
     if (isEndless && side.head<2>().norm() > 0) side.z() = 0;
     return side.normalized();
@@ -81,7 +80,9 @@ int PathProblem::addObstacle(std::string name, std::shared_ptr<const Surface> su
     PathElement obstacle;
     obstacle.name = std::move(name);
     obstacle.surface = std::move(surface);
+    obstacle.hasHole = obstacle.surface->getHole().has_value();
     obstacle.isEndless = isEndlessAlongZ(*obstacle.surface);
+    m_hasHoles = m_hasHoles || obstacle.hasHole;
     const double size = obstacle.surface->getSize();
     m_hasUsableSizes = m_hasUsableSizes && std::isnormal(size * size);
     m_elements.push_back(std::move(obstacle));

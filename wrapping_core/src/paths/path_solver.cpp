@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tautline/paths/path_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "paths/posed_problem.h"
@@ -12,12 +13,25 @@
 #include "tautline/error.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_verification.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 namespace {
 
-constexpr double kEndHeight = 1e-7;  ///< of ends that lie on a surface, in its sizes
-constexpr double kFarAway = 1e3;     ///< distance from ground's origin over span: three digits of a coordinate are lost
+/** Of a fixed point above an obstacle of its span, in the working pose [m]. */
+struct EndHeight {
+    int point, element;
+    double height;
+};
+
+/** Off the surface that it lies on, by kEndOnSurface. */
+void liftEnd(const PosedProblem& scene, const EndHeight& end, PathPose& pose) {
+    const Surface& surface = scene.getSurface(end.element);
+    const Pose& X_GS = scene.getPose(end.element);
+    Vec3 N_S;
+    surface.calcHeightAndNormal(X_GS.shiftBack(pose.X_GE[end.point].p), N_S);
+    pose.X_GE[end.point].p += (kEndOnSurface * surface.getSize() - end.height) * X_GS.rotate(N_S);
+}
 
 /** Whether a path came from the one that was given. */
 bool isLaidFromPrevious(const PathSolution& path) {
@@ -32,7 +46,8 @@ struct PathSolver::Workspace {
 
     PathSearch search;
     PathPose workingPose;
-    Vec3 origin_G = Vec3::Zero();      ///< of the frame of the working pose
+    Vec3 origin_G = Vec3::Zero();  ///< of the frame of the working pose
+    std::vector<EndHeight> endHeights;
     std::vector<double> startLengths;  ///< of the arcs by element, while contacts are kept
 };
 
@@ -74,7 +89,7 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     if (!begin(problem, givenPose, path)) return;
     const PathPose& pose = calcWorkingPose(problem, givenPose);
     const PosedProblem scene{problem, pose};
-    switchOffEnclosing(scene, path);
+    switchOffEnclosing({problem, pose}, path);
     const bool isConverged = findKeptPath(problem, pose, path) && std::isfinite(path.length);
     updateClearances(scene, path);
     watchNearestPlaces(scene, path);
@@ -104,12 +119,12 @@ decide about contacts. */
 Vec3 PathSolver::chooseOrigin(const PathPose& pose) {
     const Vec3& first = pose.X_GE.front().p;
     const double span = (pose.X_GE.back().p - first).cwiseAbs().maxCoeff();
-    return first.cwiseAbs().maxCoeff() > kFarAway * span ? first : Vec3(Vec3::Zero());
+    return first.cwiseAbs().maxCoeff() > kFarFromOrigin * span ? first : Vec3(Vec3::Zero());
 }
 
 /** The pose in a ground whose origin is near the path, with every fixed point that lies on a surface of its span lifted
-off by kEndHeight: the straight segment there would have no length, and no direction. The length changes by that height
-at most. */
+off by kEndOnSurface: the straight segment there would have no length, and no direction. The length changes by that
+height at most. */
 const PathPose& PathSolver::calcWorkingPose(const PathProblem& problem, const PathPose& pose) {
     PathPose& working = updWorkspace().workingPose;
     m_workspace->origin_G = chooseOrigin(pose);
@@ -118,20 +133,20 @@ const PathPose& PathSolver::calcWorkingPose(const PathProblem& problem, const Pa
         working = pose;
         for (Pose& X : working.X_GE) X.p -= m_workspace->origin_G;
     }
-    bool isCopied = isMoved;
-    Vec3 N_S;
-    const PosedProblem scene{problem, isMoved ? working : pose};
-    scene.forEachSpanEnd([&](int point, int e) {
-        const double size = scene.getSurface(e).getSize();
-        const double height =
-            scene.getSurface(e).calcHeightAndNormal(scene.getPose(e).shiftBack(scene.getPose(point).p), N_S);
-        if (!(std::abs(height) < kEndHeight * size)) return;
-        const Vec3 lift_G = (kEndHeight * size - height) * scene.getPose(e).rotate(N_S);
-        if (!isCopied) working = pose;
-        isCopied = true;
-        working.X_GE[point].p += lift_G;
-    });
-    return isCopied ? working : pose;
+    const PathPose& unlifted = isMoved ? working : pose;
+    std::vector<EndHeight>& ends = m_workspace->endHeights;
+    ends.clear();
+    const PosedProblem scene{problem, unlifted};
+    scene.forEachSpanEnd([&](int point, int e) { ends.push_back({point, e, scene.calcHeight(point, e)}); });
+    const auto isOnSurface = [&](const EndHeight& end) {
+        return std::abs(end.height) < kEndOnSurface * scene.getSurface(end.element).getSize();
+    };
+    if (std::none_of(ends.begin(), ends.end(), isOnSurface)) return unlifted;
+    if (!isMoved) working = pose;
+    for (const EndHeight& end : ends)
+        if (isOnSurface(end)) liftEnd({problem, working}, end, working);
+    for (EndHeight& end : ends) end.height = PosedProblem{problem, working}.calcHeight(end.point, end.element);
+    return working;
 }
 
 /** The straight segments from the frame of the working pose to ground. */
@@ -158,9 +173,9 @@ bool PathSolver::findKeptPath(const PathProblem& problem, const PathPose& pose, 
 }
 
 /** Switches off the obstacles in which an end of their span lies, since no string lies over them, and those that the
-pose passes over. The side on which one was
-passed before, or the way through its hole, ends with that: an end may come out anywhere. */
-void PathSolver::switchOffEnclosing(const PosedProblem& scene, PathSolution& path) {
+pose passes over. The side on which one was passed before, or the way through its hole, ends with that: an end may come
+out anywhere. */
+void PathSolver::switchOffEnclosing(const PosedProblem& scene, PathSolution& path) const {
     for (ObstacleContact& contact : path.contacts) {
         if (contact.isSwitchedOff) {
             contact.passage = HolePassage();
@@ -169,15 +184,14 @@ void PathSolver::switchOffEnclosing(const PosedProblem& scene, PathSolution& pat
         }
         contact.isSwitchedOff = false;
     }
-    for (int e = 0; e < scene.problem.getNumElements(); ++e)
+    for (int e = 0; e < scene.size(); ++e)
         if (!scene.isPoint(e) && !scene.pose.hasElement(e)) {
             path.contacts[e] = ObstacleContact();
             path.contacts[e].isSwitchedOff = true;
         }
-    scene.forEachSpanEnd([&](int point, int e) {
-        if (scene.calcHeight(point, e) < kContactTolerance * scene.getSurface(e).getSize())
-            path.contacts[e].isSwitchedOff = true;
-    });
+    for (const EndHeight& end : m_workspace->endHeights)
+        if (end.height < kContactTolerance * scene.getSurface(end.element).getSize())
+            path.contacts[end.element].isSwitchedOff = true;
 }
 
 /** Says how the solve ended. @param isFound   `path` is verified to be a minimum */

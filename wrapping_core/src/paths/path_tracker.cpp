@@ -6,20 +6,20 @@
 #include <limits>
 
 #include "paths/contact_settling.h"
+#include "paths/default_course.h"
 #include "paths/path_following.h"
 #include "paths/pose_motion.h"
 #include "paths/posed_problem.h"
-#include "paths/route_check.h"
 #include "paths/threading.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_explanation.h"
 #include "tautline/paths/path_stability.h"
 #include "tautline/paths/path_verification.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 namespace {
 
-constexpr double kBetweenEvents = -1e-6;  ///< arcs just below zero, in sizes, which the event finder watches
 constexpr double kMaxTurn = 0.5;  ///< of neighbors against each other in one solve [rad]: one step of Newton's method
 constexpr double kMostTurns = 200 * kPi;  ///< of a motion that is followed [rad]
 
@@ -80,11 +80,10 @@ void makeEmptyPath(const PathProblem& problem, PathSolution& path) {
 
 /** Whether a path that could not be followed to its pose would otherwise be without fault. */
 bool isElsewhere(const PathProblem& problem, const TrackedPath& path) {
-    constexpr double kVanishing = 1e-8;  // path errors that are looser than any tolerance in use
     const PathSolution& solution = path.solution;
     const bool isUnfollowed = solution.status == PathStatus::NotMinimum || solution.status == PathStatus::NotConverged;
-    return isUnfollowed && solution.pathError < kVanishing && !solution.segments.empty() && !hasLeftAnyHole(solution) &&
-           verifyPath(problem, path.pose, solution, kBetweenEvents).isMinimum();
+    return isUnfollowed && solution.pathError < kVanishingError && !solution.segments.empty() &&
+           !hasLeftAnyHole(solution) && verifyPath(problem, path.pose, solution, kShortestTrackedArc).isMinimum();
 }
 
 /** What a settling begins from: the contacts at the start where none were found, what encloses an end now, and what is
@@ -250,7 +249,7 @@ PathStatus PathTracker::calcStatus(const PathProblem& problem, const TrackedPath
             return PathStatus::EndInside;
     if (hasLeftAnyHole(solution)) return PathStatus::NotMinimum;
     using Condition = PathVerification::Condition;
-    switch (verifyPath(problem, path.pose, solution, kBetweenEvents).condition) {
+    switch (verifyPath(problem, path.pose, solution, kShortestTrackedArc).condition) {
         case Condition::None:
             return PathStatus::Solved;
         case Condition::OutsideDomain:
@@ -267,7 +266,7 @@ std::string PathTracker::explainStatus(const PathProblem& problem, const Tracked
     if (isElsewhere(problem, path)) return "a local minimum, but not the one that the motion leads to";
     PathSolution judged = path.solution;
     judged.status = calcStatus(problem, path);
-    return tautline::explainStatus(problem, path.pose, judged, kBetweenEvents);
+    return tautline::explainStatus(problem, path.pose, judged, kShortestTrackedArc);
 }
 
 }  // namespace tautline

@@ -7,6 +7,7 @@
 #include "surfaces/arc_walker.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_stability.h"
+#include "tautline/paths/tolerances.h"
 #include "tautline/surfaces/geodesic_events.h"
 
 namespace tautline {
@@ -14,11 +15,9 @@ namespace {
 
 using Condition = PathVerification::Condition;
 
-constexpr double kRounding = 1e-9;  ///< of curvatures and heights in sizes: what differences of solved places leave
-
 /** True if the arc presses on its surface all along: kappa_n <= 0. */
 bool pressesEverywhere(const Surface& surface, const ObstacleContact& contact) {
-    const double tolerance = kRounding / surface.getSize();
+    const double tolerance = kVerificationRounding / surface.getSize();
     if (contact.geodesic.P.kappaN > tolerance || contact.geodesic.Q.kappaN > tolerance) return false;
     if (surface.isConvex() || !(contact.start.length > 0)) return true;
     return !(calcLargestNormalCurvature(surface, contact.start, contact.geodesic) > tolerance);
@@ -30,7 +29,7 @@ bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSeg
     const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.rotateBack(line.e);
     // Near the tangent end the height is rounding of a square: judge beyond a margin only.
     const double s = surface.findLowestPoint(A_S, e_S, line.length);
-    return surface.calcHeight(A_S + s * e_S) < -kRounding * surface.getSize();
+    return surface.calcHeight(A_S + s * e_S) < -kVerificationRounding * surface.getSize();
 }
 
 /** The ends tell it for most arcs; along the arc it is asked only of surfaces that have an edge. */

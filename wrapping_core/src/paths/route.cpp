@@ -7,6 +7,7 @@
 #include "surfaces/arc_walker.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/segment_clearance.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 namespace {
@@ -15,7 +16,6 @@ constexpr int kArcWaypoints = 6;      ///< points taken from each arc of a previ
 constexpr int kWaypointsPerTurn = 8;  ///< of a winding
 constexpr double kFar = 1e3;          ///< in sizes of the surface: from there the way down ends on the outside
 constexpr double kClear = 3;          ///< in sizes: how far beside a body the search for its surface begins
-constexpr double kOnTheEdge = 1e-9;   ///< in sizes: by which a side may be missed in rounding
 constexpr int kHoleSteps = 12;        ///< towards the hole's center
 
 /** Where the straight line of the string comes from and goes to, in S. */
@@ -127,22 +127,12 @@ double calcTurnToSide(const Surface& surface, const Chord& chord, const Vec3& si
     return isForward ? forward : forward - 2 * kPi;
 }
 
-/** Where the straight line passes a body. */
-struct LinePassage {
-    Vec3 D;         ///< the lowest point, in S
-    bool isClear;   ///< of the body
-    bool isOnSide;  ///< that is asked for
-
-    LinePassage(const PathElement& element, const Chord& chord) : D(findLowestPoint(*element.surface, chord)) {
-        isClear = element.surface->calcHeight(D) > 0;
-        isOnSide = element.side_S.dot(D) >= -kOnTheEdge * element.surface->getSize();
-    }
-};
-
 /** Nothing where the line is clear on the side that is asked for. */
 void guideToSide(const PathElement& element, const Vec3& point_S, const Chord& chord, std::vector<Vec3>& waypoints_S) {
     const Surface& surface = *element.surface;
-    const auto [D, isClear, isOnSide] = LinePassage(element, chord);
+    const Vec3 D = findLowestPoint(surface, chord);
+    const bool isClear = surface.calcHeight(D) > 0;
+    const bool isOnSide = element.side_S.dot(D) >= -kOnTheEdge * surface.getSize();
     if (element.isEndless) {
         if (!element.side_S.allFinite() || (isClear && isOnSide)) return;
         layTurn(surface, chord, calcTurnToSide(surface, chord, element.side_S), waypoints_S);
@@ -240,14 +230,16 @@ Vec3 findNextKnown(const PosedProblem& scene, int element) {
 
 /** Lifted obstacles that have come between the waypoints beside them are passed where they were: on the side that is
 kept, however far that is. */
-void guideOverSunken(const PosedProblem& scene, const PathSolution& previous, Waypoints& waypoints) {
+void guideOverSunken(const PosedProblem& scene, const std::vector<PassedObstacle>& previous, Waypoints& waypoints) {
     Vec3 last_G = Vec3::Zero();
     for (int e = 0; e < scene.size(); ++e) {
         if (scene.isObstacle(e) && waypoints[e].empty()) {
             const auto next = std::find_if(waypoints.begin() + e, waypoints.end(),
                                            [](const auto& points) { return !points.empty(); });
-            LineClearance clearance = previous.contacts[e].clearance;
-            if (next == waypoints.end() || previous.contacts[e].isSwitchedOff || !clearance.keptN.allFinite()) continue;
+            LineClearance clearance;
+            clearance.keptC = previous[e].keptC;
+            clearance.keptN = previous[e].keptN;
+            if (next == waypoints.end() || previous[e].isSwitchedOff || !clearance.keptN.allFinite()) continue;
             findSegmentClearance(scene.getSurface(e), scene.getPose(e), last_G, next->front(), clearance);
             const bool isSunk = clearance.distance * clearance.scale < kContactTolerance;
             if (isSunk && clearance.keptC.p.allFinite()) waypoints[e] = {scene.getPose(e) * clearance.keptC.p};
@@ -257,13 +249,6 @@ void guideOverSunken(const PosedProblem& scene, const PathSolution& previous, Wa
 }
 
 }  // namespace
-
-double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S) {
-    const Chord chord{A_S, B_S};
-    const LinePassage line(element, chord);
-    if (!(line.isClear && line.isOnSide)) return calcTurnToSide(*element.surface, chord, element.side_S);
-    return std::remainder(calcAzimuth(B_S) - calcAzimuth(A_S), 2 * kPi);
-}
 
 Route calcAskedRoute(const PosedProblem& scene) {
     Route route{Waypoints(scene.size()), PassageRule{std::vector<int>(scene.size(), PassageRule::kAny)}};
@@ -286,21 +271,31 @@ Route calcAskedRoute(const PosedProblem& scene) {
     return route;
 }
 
-Route calcPreviousRoute(const PosedProblem& scene, const PathSolution& previous) {
+void rememberPath(const PathSolution& path, std::vector<PassedObstacle>& previous) {
+    previous.resize(path.contacts.size());
+    for (std::size_t e = 0; e < previous.size(); ++e) {
+        const ObstacleContact& contact = path.contacts[e];
+        previous[e] = {contact.isTouched,      contact.isSwitchedOff,     contact.start,
+                       contact.passage.count,  contact.passage.through_S, contact.clearance.keptC,
+                       contact.clearance.keptN};
+    }
+}
+
+Route calcPreviousRoute(const PosedProblem& scene, const std::vector<PassedObstacle>& previous) {
     Route route;
     route.waypoints.resize(scene.size());
     for (int e = 0; e < scene.size(); ++e) {
         if (!scene.pose.hasElement(e)) continue;
-        const ObstacleContact& contact = previous.contacts[e];
+        const PassedObstacle& obstacle = previous[e];
         std::vector<Vec3>& points = route.waypoints[e];
         if (scene.isPoint(e))
             points = {Vec3::Zero()};
-        else if (contact.isTouched && contact.start.length > 0)
-            sampleGeodesic(scene.getSurface(e), contact.start, kRoughlyAlong, kArcWaypoints, points);
-        else if (contact.isTouched)
-            points = {contact.start.point.p};
-        else if (contact.passage.count != 0)
-            points = {contact.passage.through_S};
+        else if (obstacle.isTouched && obstacle.arc.length > 0)
+            sampleGeodesic(scene.getSurface(e), obstacle.arc, kRoughlyAlong, kArcWaypoints, points);
+        else if (obstacle.isTouched)
+            points = {obstacle.arc.point.p};
+        else if (obstacle.passages != 0)
+            points = {obstacle.through_S};
         for (Vec3& p : points) p = scene.getPose(e) * p;
         points.erase(std::remove_if(points.begin(), points.end(), [](const Vec3& p) { return !p.allFinite(); }),
                      points.end());

@@ -20,12 +20,21 @@ struct Route {
 body (PathElement::isEndless) a side is a homotopy class, and is laid as the turn about the axis that leads to it. */
 Route calcAskedRoute(const PosedProblem& scene);
 
-/** By how much a string from A to B is asked to turn about the axis of an endless body with a side, as
-calcAskedRoute() lays it. @param A_S, B_S   in S; the angle from x to y [rad] */
-double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S);
+/** What is remembered of an obstacle of a path, so that a string can be laid along that again. */
+struct PassedObstacle {
+    bool isTouched = false, isSwitchedOff = false;
+    GeodesicStart arc;              ///< in S
+    int passages = 0;               ///< through its hole
+    Vec3 through_S = Vec3::Zero();  ///< where it last went through
+    SurfacePoint keptC;             ///< where a lifted one was watched last, with its normal; in S
+    Vec3 keptN;
+};
+
+/** @param previous   one entry per element, as calcPreviousRoute() takes it */
+void rememberPath(const PathSolution& path, std::vector<PassedObstacle>& previous);
 
 /** Along a previous path: its arcs, and where it went through the holes of obstacles that it did not touch. */
-Route calcPreviousRoute(const PosedProblem& scene, const PathSolution& previous);
+Route calcPreviousRoute(const PosedProblem& scene, const std::vector<PassedObstacle>& previous);
 
 /** Through the fixed points alone, and through rings or past them. */
 Route calcReleasedRoute(const PosedProblem& scene);

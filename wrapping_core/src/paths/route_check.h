@@ -12,17 +12,12 @@ RouteDeviation findDeviation(const PosedProblem& scene, const PathSolution& path
 
 /** The first obstacle that a continued path, which follows its hints, passes as it does only because it was continued
 (RouteDeviation::Kind::Continued): about an endless body it turns otherwise than the straight line between the fixed
-points beside it, or than its side asks; any other body it passes far from where that line, or its side, is. A rule that
-costs next to nothing: of poses on random walks it misses 0.2 % of the paths that are not where a cold solve ends.
-Obstacles with a hole are judged by their passages. */
+points, or the obstacles with PassNear, beside it, or than its side asks; any other body it passes far from where that
+line, or its side, is. A rule that costs next to nothing: of poses on random walks it misses 0.2 % of the paths that are
+not where a cold solve ends. Obstacles with a hole are judged by their passages. */
 RouteDeviation findContinuedDeviation(const PosedProblem& scene, const PathSolution& path);
 
 /** The first hint of a side or of turns that it does not follow, where passages are judged otherwise. */
 RouteDeviation findSideDeviation(const PosedProblem& scene, const PathSolution& path);
-
-/** Whether a minimum runs as one that is found anew in its pose has to: as the hints ask, past an obstacle without a
-hint on the side where the straight line between its neighbors passes, through unhinted rings as that line does, and
-wound up by less than a full turn unless a hint says otherwise. */
-bool isOnDefaultCourse(const PosedProblem& scene, const PathSolution& path);
 
 }  // namespace tautline

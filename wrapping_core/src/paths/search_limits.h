@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/** What the search for a path may cost. None of these decides what an answer is (tolerances.h): they bound the work of
-a solve that comes to no answer, and were set from what solves that come to one need. */
+/** What the search for a path may cost. None of these decides what an answer is (tautline/paths/tolerances.h): they
+bound the work of a solve that comes to no answer, and were set from what solves that come to one need. */
 
 namespace tautline {
 

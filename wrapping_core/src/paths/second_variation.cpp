@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "paths/geodesic_variations.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 namespace {
-
-constexpr double kNeutral = 1e-9;  ///< relative second variation below which a path is neither stable nor unstable
 
 double calcRelative(double a, double b) {
     return (a + b) / (std::abs(a) + std::abs(b));
@@ -96,7 +95,7 @@ PathStability calcSecondVariation(const PosedProblem& scene, const PathSolution&
         pivots.enterArc(scene, path, in);
         if (direction) fields[j] = {pivots.y, pivots.yQ, pivots.toPrevious};
         // A path over a sphere between opposite points can turn freely: neutral, and a minimum like its neighbours.
-        const double neutral = scene.isPoint(out.toElement) ? kNeutral : 0;
+        const double neutral = scene.isPoint(out.toElement) ? kNeutralVariation : 0;
         const double atLine = calcRelative(pivots.slopeQ * out.length, pivots.yQ) + neutral;
         const bool isBeyondConjugatePoint = arc.hasConjugatePoint && path.contacts[e].start.length > 0;
         const double margin = isBeyondConjugatePoint ? -1

@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "surfaces/closest_approach.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 namespace {
-
-constexpr double kSamePlace = 1e-9;  ///< by which, of itself, a height may fall below the distance of the same place
 
 /** The clearance of a line of which nothing is known yet: Newton from the segment's lowest point, at s. */
 void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, double s,

@@ -86,7 +86,7 @@ bool PathSearch::findPath(const PosedProblem& scene, bool isContinued, PathSolut
     m_isLoose = false;
     m_bestRank = Rank::None;
     m_asked.waypoints.clear();
-    m_previous.contacts = path.contacts;
+    if (m_isContinued && m_options.allowsColdStart) rememberPath(path, m_previous);
     for (const Strategy& strategy : kStrategies) {
         if (!(this->*strategy.applies)()) continue;
         path.report.strategy = strategy.kind;
@@ -230,19 +230,22 @@ void PathSearch::solveInserted(const Route& route, PathSolution& path) {
     offer(judge(m_broken, route.threading, true, path), path);
 }
 
-/** Ever finer bands, until the local solver leads on from one. */
+/** Ever finer bands, until the local solver leads on from one. One that has slipped off the route asked for is laid
+anew: where a string rests in a groove, nodes that are too far apart may miss it. One that rests on the route, but is
+not smooth, may show more when it is finer. */
 void PathSearch::solveAlongBand(const Route& route, bool keepsSides, PathSolution& path) {
     path.fault = {};
     m_atRestRank = Rank::None;
-    m_band.lay(*m_scene, route.waypoints);
+    bool hasSlipped = true;
     int level = 0;
     for (const BandLevel& band : kBandLevels) {
         path.report.bandLevel = ++level;
+        if (hasSlipped) m_band.lay(*m_scene, route.waypoints);
         const Rank rank = freeBand(tightenBand(band, route, keepsSides, path), route, keepsSides, path);
-        // A band that has slipped off the route shows nothing more; one that rests there, but is not smooth, may.
-        const bool hasSlipped = rank == Rank::MinimumElsewhere && !isAtRest(m_band.findFault(m_scene->problem));
-        if (m_bestRank == Rank::Minimum || hasSlipped) return;
+        if (m_bestRank == Rank::Minimum) return;
+        hasSlipped = rank == Rank::MinimumElsewhere && !isAtRest(m_band.findFault(m_scene->problem));
     }
+    if (hasSlipped) return;
     // A band in which nothing is wrong may still slide, slower than was asked for.
     const StringFault::Kind fault = m_band.findFault(m_scene->problem).kind;
     if (fault == StringFault::Kind::Sliding) m_band.disturb();
@@ -295,6 +298,8 @@ void PathSearch::acceptFault(PathSolution& path) {
     if (!isAtRest(fault) || goesOn) return;
     if (m_atRestRank < Rank::Stationary && fault.other >= 0) yieldInGrooves(path);
     if (m_atRestRank == Rank::None) keepContactsOfBand(path);
+    // A string that would have to cross itself is no answer, unless a path shows where it is.
+    if (fault.kind == StringFault::Kind::OutOfOrder && m_atRestRank < Rank::Stationary) return;
     goBack(m_atRest, path);
     path.fault = fault;
     offer(Rank::AskedButBroken, path);

@@ -86,15 +86,15 @@ private:
 
     const PosedProblem* m_scene = nullptr;
     bool m_isContinued = false;
-    bool m_isLoose = false;          ///< continued, it is a minimum, but has left a ring
-    int m_failedSteps = 0;           ///< of the path that is continued (SolveReport)
-    PathSolution m_previous;         ///< contacts of the path that is continued
-    Route m_asked;                   ///< laid out when first needed
-    PathSolution m_best;             ///< of the paths offered
-    Rank m_bestRank = Rank::None;    ///< its
-    PathSolution m_atRest;           ///< the best path met along the band that was laid last
-    Rank m_atRestRank = Rank::None;  ///< its
-    PathVerification m_broken;       ///< of the last local solve
+    bool m_isLoose = false;                  ///< continued, it is a minimum, but has left a ring
+    int m_failedSteps = 0;                   ///< of the path that is continued (SolveReport)
+    std::vector<PassedObstacle> m_previous;  ///< of the path that is continued
+    Route m_asked;                           ///< laid out when first needed
+    PathSolution m_best;                     ///< of the paths offered
+    Rank m_bestRank = Rank::None;            ///< its
+    PathSolution m_atRest;                   ///< the best path met along the band that was laid last
+    Rank m_atRestRank = Rank::None;          ///< its
+    PathVerification m_broken;               ///< of the last local solve
 };
 
 }  // namespace tautline

@@ -62,9 +62,10 @@ HolePassage calcComparablePassage(const PosedProblem& scene, const PathSolution&
 the hole since the passages that are kept. */
 template <class Visitor>
 void visitHoles(const PosedProblem& scene, const PathSolution& path, Visitor visit) {
+    if (!scene.problem.hasHoles()) return;
     scene.forEachObstacleOnSegments(path, [&](int e, int in, int out) {
+        if (!scene.problem.getElement(e).hasHole) return;
         const std::optional<Hole> hole = scene.getSurface(e).getHole();
-        if (!hole) return;
         const HolePassage passage = calcHolePassage(scene, path, e, in, out), &kept = path.contacts[e].passage;
         const HolePassage comparable = calcComparablePassage(scene, path, e, kept, passage);
         visit(e, passage, hasLeftHole(*hole, kept, comparable));

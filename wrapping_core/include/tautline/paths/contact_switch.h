@@ -2,12 +2,9 @@
 #pragma once
 #include "tautline/paths/path_problem.h"
 #include "tautline/paths/path_solution.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
-
-/** d_tol of thesis Sec. 6.2, normalized by max(|kappa_n|, 1/size): the one constant for switching contact,
-verifying and flagging it. Tiny, since a penetration h at touchdown makes the rate jump with h. */
-inline constexpr double kContactTolerance = -1e-10;
 
 /** Touches a lifted obstacle, with an arc of length zero where its segment just touches, or lifts a touched one.
 @param path   solved at `pose`; its contact is changed, the path is to be solved anew */

@@ -17,6 +17,7 @@ struct PathElement {
     StartHint hint;                          ///< how the path is asked to run about it
     Vec3 side_S = Vec3::Constant(kNaN);      ///< of PassNear and PassOnSide: the side asked for, a unit vector
     bool isAskedThroughHole = false;         ///< by PassNear: the point lies in the hole of the surface
+    bool hasHole = false;                    ///< of the surface (Surface::getHole())
     bool isEndless = false;                  ///< the z axis of S never leaves the body: sides are homotopy classes
     bool isPoint() const { return surface == nullptr; }
 };
@@ -46,12 +47,16 @@ public:
     /** True if a hint says of any obstacle how the path is to run about it. */
     bool hasHints() const { return m_numHints > 0; }
 
+    /** True if a surface has a hole. */
+    bool hasHoles() const { return m_hasHoles; }
+
     int getNumElements() const { return static_cast<int>(m_elements.size()); }
     const PathElement& getElement(int element) const { return m_elements[element]; }
 
 private:
     std::vector<PathElement> m_elements;
     bool m_hasUsableSizes = true;
+    bool m_hasHoles = false;
     int m_numHints = 0;
 };
 

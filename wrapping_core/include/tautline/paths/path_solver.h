@@ -47,7 +47,7 @@ private:
     const PathPose& calcWorkingPose(const PathProblem& problem, const PathPose& pose);
     void moveToGround(PathSolution& path) const;
     bool findKeptPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
-    static void switchOffEnclosing(const PosedProblem& scene, PathSolution& path);
+    void switchOffEnclosing(const PosedProblem& scene, PathSolution& path) const;
     void finish(const PathProblem& problem, const PathPose& pose, bool isFound, PathSolution& path) const;
 
     PathSolverOptions m_options;

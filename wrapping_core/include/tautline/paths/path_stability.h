@@ -2,13 +2,9 @@
 #pragma once
 #include "tautline/paths/path_problem.h"
 #include "tautline/paths/path_solution.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
-
-/** Where a string slips off that follows a path from pose to pose: below zero, where a way leads down from the saddle
-that is no longer lost in rounding. On the verge it would slip by next to nothing, again and again. What the path is too
-long by until then is of second order. */
-inline constexpr double kSlipMargin = -1e-6;
 
 /** How far a path with vanishing path error is from a saddle of the length. */
 struct PathStability {

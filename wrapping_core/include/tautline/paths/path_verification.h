@@ -2,6 +2,7 @@
 #pragma once
 #include "tautline/paths/path_problem.h"
 #include "tautline/paths/path_solution.h"
+#include "tautline/paths/tolerances.h"
 
 namespace tautline {
 
@@ -24,9 +25,6 @@ struct PathVerification {
 
     bool isMinimum() const { return condition == Condition::None; }
 };
-
-/** Arcs shorter than this, in sizes of their surfaces, are of negative length. */
-inline constexpr double kShortestArc = -1e-12;
 
 /** Checks the conditions of a local minimum on a solved path, contact set included.
 @param shortestArc   in sizes of the surface; below it an arc is of negative length */

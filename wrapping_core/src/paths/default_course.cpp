@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "paths/default_course.h"
+
+#include <cmath>
+
+#include "paths/arc_course.h"
+#include "paths/route.h"
+#include "paths/route_check.h"
+#include "tautline/paths/segment_clearance.h"
+
+namespace tautline {
+namespace {
+
+/** By how much a route turns about the z axis of S between two points, over the waypoints between them [rad]. */
+double calcRouteTurning(const Pose& X_GS, const Vec3& from_G, const std::vector<Vec3>& waypoints, const Vec3& to_G) {
+    double turning = 0;
+    Vec3 last = X_GS.shiftBack(from_G);
+    const auto goTo = [&](const Vec3& point_G) {
+        const Vec3 p = X_GS.shiftBack(point_G);
+        turning += std::atan2(last.x() * p.y() - last.y() * p.x(), last.head<2>().dot(p.head<2>()));
+        last = p;
+    };
+    for (const Vec3& point_G : waypoints) goTo(point_G);
+    goTo(to_G);
+    return turning;
+}
+
+/** Outward where a search would have the path: at the point of a hint, or where the straight line comes nearest to the
+obstacle or lies deepest in it. */
+Vec3 calcDefaultSide(const PosedProblem& scene, int e, const std::vector<Vec3>& waypoints, const Vec3& from_G,
+                     const Vec3& to_G) {
+    const Surface& surface = scene.getSurface(e);
+    if (!waypoints.empty())
+        return surface.calcFrame(surface.findSurfacePoint(scene.getPose(e).shiftBack(waypoints.front())), Vec3(1, 2, 3))
+            .N;
+    LineClearance line;
+    findSegmentClearance(surface, scene.getPose(e), from_G, to_G, line);
+    return line.N;
+}
+
+/** Where an obstacle lies between the waypoints of a route. */
+struct RoutePlace {
+    const std::vector<Vec3>& waypoints;  ///< of its own
+    Vec3 from_G, to_G;                   ///< before and after
+};
+
+/** Whether the path is in the class of the route about a body without end: there it is decided by the turning. */
+bool turnsAsRoute(const PosedProblem& scene, const PathSolution& path, int e, int in, int out,
+                  const RoutePlace& route) {
+    const StraightSegment &before = path.segments[in], &after = path.segments[out];
+    const double asked = calcRouteTurning(scene.getPose(e), route.from_G, route.waypoints, route.to_G);
+    const Pose& X_GS = scene.getPose(e);
+    const double turning =
+        calcTurning(scene.getSurface(e), path.contacts[e], X_GS.shiftBack(before.A), X_GS.shiftBack(after.B));
+    // Where the neighbors stand elsewhere than the waypoints, half a turn says too little.
+    const bool isBetweenPoints = scene.isPoint(before.fromElement) && scene.isPoint(after.toElement);
+    return std::abs(turning - asked) < (isBetweenPoints ? 1 : 0.5) * kPi;
+}
+
+/** Whether the path passes a body where a search would have it, clearly: near the edge of that side there may be
+another minimum, which the search prefers. */
+bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e, const RoutePlace& route) {
+    constexpr double kClear = 0.5;  // cosine
+    const ObstacleContact& contact = path.contacts[e];
+    if (contact.isTouched && !(calcTurn(contact) < 2 * kPi)) return false;
+    const Vec3 N =
+        contact.isTouched ? calcMiddleNormal(scene.getSurface(e), contact).normalized() : contact.clearance.N;
+    return N.dot(calcDefaultSide(scene, e, route.waypoints, route.from_G, route.to_G)) > kClear;
+}
+
+/** A string through a ring whose ends pull it to one side lies on the tube there; on the far side there is another
+minimum. */
+bool liesWhereEndsPull(const PosedProblem& scene, int e, const ObstacleContact& contact, const RoutePlace& route) {
+    constexpr double kClear = 0.5;  // cosine
+    if (!contact.isTouched) return true;
+    const Vec3 axis = scene.getSurface(e).getHole()->getAxis();
+    const Pose& X_GS = scene.getPose(e);
+    const auto calcAside = [&](const Vec3& v) { return Vec3(v - axis.dot(v) * axis).normalized(); };
+    const Vec3 pull = X_GS.shiftBack(route.from_G).normalized() + X_GS.shiftBack(route.to_G).normalized();
+    return calcAside(pull).dot(calcAside(contact.geodesic.P.x + contact.geodesic.Q.x)) > kClear;
+}
+
+}  // namespace
+
+bool isOnDefaultCourse(const PosedProblem& scene, const PathSolution& path) {
+    if (findDeviation(scene, path).kind != RouteDeviation::Kind::None) return false;
+    const Route asked = calcAskedRoute(scene);
+    bool isOnCourse = true;
+    scene.forEachObstacleOnSegments(path, [&](int e, int in, int out) {
+        const ObstacleContact& contact = path.contacts[e];
+        if (!isOnCourse || contact.isSwitchedOff) return;
+        int last = e - 1, next = e + 1;
+        while (asked.waypoints[last].empty()) --last;
+        while (asked.waypoints[next].empty()) ++next;
+        const RoutePlace route{asked.waypoints[e], asked.waypoints[last].back(), asked.waypoints[next].front()};
+        const int count = asked.threading.counts[e];
+        isOnCourse = !contact.yields;
+        if (count != PassageRule::kAny)
+            isOnCourse = isOnCourse && contact.passage.isKnown() && contact.passage.count == count;
+        if (!isOnCourse) return;
+        if (scene.problem.getElement(e).isEndless)
+            isOnCourse = turnsAsRoute(scene, path, e, in, out, route);
+        else if (count == PassageRule::kAny || (count == 0 && route.waypoints.empty()))
+            isOnCourse = isOnSideOfRoute(scene, path, e, route);
+        else  // more often, or round the ring, in several ways
+            isOnCourse = std::abs(count) == 1 && liesWhereEndsPull(scene, e, contact, route);
+    });
+    return isOnCourse;
+}
+
+}  // namespace tautline
