@@ -37,7 +37,7 @@ one narrower than doubles tell apart. The witness of contact itself asks for kEv
 is as exact as the study where the motion is so slow that kDeepest says little. */
 class BreachEventHandler : public SimTK::TriggeredEventHandler {
 public:
-    static constexpr SimTK::Real kDeepest = 1e-8;  ///< in sizes of the surface
+    static constexpr SimTK::Real kDeepest = 1e-9;  ///< in sizes of the surface
 
     explicit BreachEventHandler(const CableImpl& cable);
     SimTK::Real getValue(const SimTK::State& state) const override;

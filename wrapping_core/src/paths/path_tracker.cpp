@@ -157,7 +157,8 @@ void PathTracker::solveFrom(const PathProblem& problem, const TrackedPath& start
     if (!start.solution.isEmpty() && isMinimum(start.solution)) {
         path.solution = start.solution;
         m_workspace->continuer.solve(problem, path.pose, path.solution);
-        if (isMinimum(path.solution) && isOnDefaultCourse({problem, path.pose}, path.solution)) return;
+        const bool isDoubtful = !isMinimum(path.solution) || path.solution.dependsOnHistory();
+        if (!isDoubtful && isOnDefaultCourse({problem, path.pose}, path.solution)) return;
     }
     solve(problem, path);
 }
