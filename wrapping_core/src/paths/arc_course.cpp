@@ -64,4 +64,8 @@ Vec3 calcMiddlePoint(const Surface& surface, const ObstacleContact& contact) {
     return 0.5 * (arc.P.x + arc.Q.x);
 }
 
+Vec3 findMiddlePoint(const Surface& surface, const ObstacleContact& contact) {
+    return shootToMiddle(surface, contact).x;
+}
+
 }  // namespace tautline

@@ -20,4 +20,7 @@ Vec3 calcMiddleNormal(const Surface& surface, const ObstacleContact& contact);
 /** A point over which the middle of an arc lies, in S: that of its chord while it turns by less than half a circle. */
 Vec3 calcMiddlePoint(const Surface& surface, const ObstacleContact& contact);
 
+/** The middle of an arc itself, in S: shot, where calcMiddlePoint() is next to an edge. */
+Vec3 findMiddlePoint(const Surface& surface, const ObstacleContact& contact);
+
 }  // namespace tautline
