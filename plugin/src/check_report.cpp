@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check_report.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "model_report.h"
@@ -14,13 +13,6 @@ using models::CheckedDeviation;
 using models::CheckedMuscle;
 using models::CheckedObstacle;
 using models::CheckedPath;
-
-/** Never 0 or 100 unless it is that. */
-std::string formatShare(int count, int all) {
-    if (count == 0 || all == 0) return "0 %";
-    const long percent = std::lround(100.0 * count / all);
-    return std::to_string(std::clamp<long>(percent, 1, count == all ? 100 : 99)) + " %";
-}
 
 void printUnknown(const CheckedModel& model, std::ostream& out) {
     if (model.unknown.empty()) return;

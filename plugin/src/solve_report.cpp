@@ -44,11 +44,7 @@ std::string describeContacts(const StudiedPath& studied, std::size_t p, const st
         std::size_t touched = 0;
         for (const PoseAnswer& answer : answers) touched += answer.paths[p].obstacles[o].isTouched;
         if (touched == 0) continue;
-        // Never 0 or 100 unless it is that.
-        const long share =
-            std::clamp<long>(std::lround(100.0 * static_cast<double>(touched) / static_cast<double>(answers.size())), 1,
-                             touched == answers.size() ? 100 : 99);
-        text += (text.empty() ? "" : ", ") + studied.obstacles[o] + " " + std::to_string(share) + " %";
+        text += (text.empty() ? "" : ", ") + studied.obstacles[o] + " " + formatShare(touched, answers.size());
     }
     return text.empty() ? "-" : text;
 }

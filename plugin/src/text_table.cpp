@@ -2,6 +2,7 @@
 #include "text_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -11,6 +12,12 @@ std::string format(double value, int digits, bool isScientific) {
     std::ostringstream text;
     text << (isScientific ? std::scientific : std::fixed) << std::setprecision(digits) << value;
     return text.str();
+}
+
+std::string formatShare(std::size_t count, std::size_t all) {
+    if (count == 0 || all == 0) return "0 %";
+    const long percent = std::lround(100.0 * static_cast<double>(count) / static_cast<double>(all));
+    return std::to_string(std::clamp<long>(percent, 1, count == all ? 100 : 99)) + " %";
 }
 
 void TextTable::addColumn(const std::string& heading, const std::string& below, bool isLeft) {

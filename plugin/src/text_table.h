@@ -9,6 +9,9 @@ namespace tautline {
 /** With so many decimals, or in scientific notation with so many digits after the point. */
 std::string format(double value, int digits, bool isScientific = false);
 
+/** In percent; 0 % and 100 % only where it is none or all. */
+std::string formatShare(std::size_t count, std::size_t all);
+
 /** Rows of texts under headings, in columns as wide as what stands in them. */
 class TextTable {
 public:

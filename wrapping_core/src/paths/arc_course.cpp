@@ -20,12 +20,16 @@ DarbouxFrame shootToMiddle(const Surface& surface, const ObstacleContact& contac
 
 }  // namespace
 
+double calcShortTurning(const Vec3& from_S, const Vec3& to_S) {
+    return std::atan2(from_S.x() * to_S.y() - from_S.y() * to_S.x(), from_S.head<2>().dot(to_S.head<2>()));
+}
+
 double calcTurning(const Surface& surface, const ObstacleContact& contact, const Vec3& A_S, const Vec3& B_S) {
     constexpr double kMostPieces = 2000, kQuarterTurn = 0.5 * kPi;
     double turning = 0;
     Vec3 last = A_S;
     const auto goTo = [&](const Vec3& p) {
-        turning += std::atan2(last.x() * p.y() - last.y() * p.x(), last.head<2>().dot(p.head<2>()));
+        turning += calcShortTurning(last, p);
         last = p;
     };
     if (contact.isTouched) {
@@ -57,15 +61,13 @@ Vec3 calcMiddleNormal(const Surface& surface, const ObstacleContact& contact) {
     return arc.P.t.dot(arc.Q.t) > 0 ? Vec3(arc.P.N + arc.Q.N) : Vec3(arc.P.t - arc.Q.t);
 }
 
-Vec3 calcMiddlePoint(const Surface& surface, const ObstacleContact& contact) {
-    constexpr double kHalfTurn = 2.5;  // [rad], less than pi since curvatures vary
+double calcMiddleAlong(const Surface& surface, const ObstacleContact& contact, const Vec3& direction_S) {
+    constexpr double kHalfTurn = 2.5;     // [rad], less than pi since curvatures vary
+    constexpr double kNearTheEdge = 0.3;  // in sizes
     const Geodesic& arc = contact.geodesic;
-    if (calcTurn(contact) > kHalfTurn) return shootToMiddle(surface, contact).x;
-    return 0.5 * (arc.P.x + arc.Q.x);
-}
-
-Vec3 findMiddlePoint(const Surface& surface, const ObstacleContact& contact) {
-    return shootToMiddle(surface, contact).x;
+    const double ofChord = 0.5 * direction_S.dot(arc.P.x + arc.Q.x);
+    if (calcTurn(contact) <= kHalfTurn && std::abs(ofChord) >= kNearTheEdge * surface.getSize()) return ofChord;
+    return direction_S.dot(shootToMiddle(surface, contact).x);
 }
 
 }  // namespace tautline

@@ -4,7 +4,13 @@
 
 namespace tautline {
 
+/** Cosine of 60 degrees: minima of one body that lie nearer to each other are few. */
+inline constexpr double kCosineOfNear = 0.5;
+
 /** How a path runs about one obstacle: by how much it turns, and where the middle of its arc lies. */
+
+/** The angle about the z axis of S from one point to the next, the short way round, positive from x to y [rad]. */
+double calcShortTurning(const Vec3& from_S, const Vec3& to_S);
 
 /** By how much a path turns about the z axis of S from A to B, which lie before and after its arc on straight lines,
 positive from x to y [rad]: pieces of the arc turn by so little that the way round is plain. */
@@ -17,10 +23,8 @@ double calcTurn(const ObstacleContact& contact);
 direction if it turns by little, and its tangents differ by it if it turns by up to a full turn. */
 Vec3 calcMiddleNormal(const Surface& surface, const ObstacleContact& contact);
 
-/** A point over which the middle of an arc lies, in S: that of its chord while it turns by less than half a circle. */
-Vec3 calcMiddlePoint(const Surface& surface, const ObstacleContact& contact);
-
-/** The middle of an arc itself, in S: shot, where calcMiddlePoint() is next to an edge. */
-Vec3 findMiddlePoint(const Surface& surface, const ObstacleContact& contact);
+/** How far the middle of an arc lies along a direction, in S [m], exact in sign. That of its chord tells, unless the
+arc turns by half a circle or more, or the edge is near. */
+double calcMiddleAlong(const Surface& surface, const ObstacleContact& contact, const Vec3& direction_S);
 
 }  // namespace tautline

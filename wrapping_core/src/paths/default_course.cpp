@@ -5,7 +5,6 @@
 
 #include "paths/arc_course.h"
 #include "paths/route.h"
-#include "paths/route_check.h"
 #include "tautline/paths/segment_clearance.h"
 
 namespace tautline {
@@ -17,7 +16,7 @@ double calcRouteTurning(const Pose& X_GS, const Vec3& from_G, const std::vector<
     Vec3 last = X_GS.shiftBack(from_G);
     const auto goTo = [&](const Vec3& point_G) {
         const Vec3 p = X_GS.shiftBack(point_G);
-        turning += std::atan2(last.x() * p.y() - last.y() * p.x(), last.head<2>().dot(p.head<2>()));
+        turning += calcShortTurning(last, p);
         last = p;
     };
     for (const Vec3& point_G : waypoints) goTo(point_G);
@@ -48,8 +47,8 @@ struct RoutePlace {
 bool turnsAsRoute(const PosedProblem& scene, const PathSolution& path, int e, int in, int out,
                   const RoutePlace& route) {
     const StraightSegment &before = path.segments[in], &after = path.segments[out];
-    const double asked = calcRouteTurning(scene.getPose(e), route.from_G, route.waypoints, route.to_G);
     const Pose& X_GS = scene.getPose(e);
+    const double asked = calcRouteTurning(X_GS, route.from_G, route.waypoints, route.to_G);
     const double turning =
         calcTurning(scene.getSurface(e), path.contacts[e], X_GS.shiftBack(before.A), X_GS.shiftBack(after.B));
     // Where the neighbors stand elsewhere than the waypoints, half a turn says too little.
@@ -60,30 +59,27 @@ bool turnsAsRoute(const PosedProblem& scene, const PathSolution& path, int e, in
 /** Whether the path passes a body where a search would have it, clearly: near the edge of that side there may be
 another minimum, which the search prefers. */
 bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e, const RoutePlace& route) {
-    constexpr double kClear = 0.5;  // cosine
     const ObstacleContact& contact = path.contacts[e];
     if (contact.isTouched && !(calcTurn(contact) < 2 * kPi)) return false;
     const Vec3 N =
         contact.isTouched ? calcMiddleNormal(scene.getSurface(e), contact).normalized() : contact.clearance.N;
-    return N.dot(calcDefaultSide(scene, e, route.waypoints, route.from_G, route.to_G)) > kClear;
+    return N.dot(calcDefaultSide(scene, e, route.waypoints, route.from_G, route.to_G)) > kCosineOfNear;
 }
 
 /** A string through a ring whose ends pull it to one side lies on the tube there; on the far side there is another
 minimum. */
 bool liesWhereEndsPull(const PosedProblem& scene, int e, const ObstacleContact& contact, const RoutePlace& route) {
-    constexpr double kClear = 0.5;  // cosine
     if (!contact.isTouched) return true;
     const Vec3 axis = scene.getSurface(e).getHole()->getAxis();
     const Pose& X_GS = scene.getPose(e);
     const auto calcAside = [&](const Vec3& v) { return Vec3(v - axis.dot(v) * axis).normalized(); };
     const Vec3 pull = X_GS.shiftBack(route.from_G).normalized() + X_GS.shiftBack(route.to_G).normalized();
-    return calcAside(pull).dot(calcAside(contact.geodesic.P.x + contact.geodesic.Q.x)) > kClear;
+    return calcAside(pull).dot(calcAside(contact.geodesic.P.x + contact.geodesic.Q.x)) > kCosineOfNear;
 }
 
 }  // namespace
 
 bool isOnDefaultCourse(const PosedProblem& scene, const PathSolution& path) {
-    if (findDeviation(scene, path).kind != RouteDeviation::Kind::None) return false;
     const Route asked = calcAskedRoute(scene);
     bool isOnCourse = true;
     scene.forEachObstacleOnSegments(path, [&](int e, int in, int out) {

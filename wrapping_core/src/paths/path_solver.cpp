@@ -89,7 +89,7 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     if (!begin(problem, givenPose, path)) return;
     const PathPose& pose = calcWorkingPose(problem, givenPose);
     const PosedProblem scene{problem, pose};
-    switchOffEnclosing({problem, pose}, path);
+    switchOffEnclosing(scene, path);
     const bool isConverged = findKeptPath(problem, pose, path) && std::isfinite(path.length);
     updateClearances(scene, path);
     watchNearestPlaces(scene, path);

@@ -157,8 +157,8 @@ void PathTracker::solveFrom(const PathProblem& problem, const TrackedPath& start
     if (!start.solution.isEmpty() && isMinimum(start.solution)) {
         path.solution = start.solution;
         m_workspace->continuer.solve(problem, path.pose, path.solution);
-        const bool isDoubtful = !isMinimum(path.solution) || path.solution.dependsOnHistory();
-        if (!isDoubtful && isOnDefaultCourse({problem, path.pose}, path.solution)) return;
+        const bool isAsAsked = path.solution.deviation.kind == RouteDeviation::Kind::None;
+        if (isMinimum(path.solution) && isAsAsked && isOnDefaultCourse({problem, path.pose}, path.solution)) return;
     }
     solve(problem, path);
 }

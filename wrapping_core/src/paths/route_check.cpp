@@ -13,9 +13,6 @@ namespace {
 
 using Kind = RouteDeviation::Kind;
 
-constexpr double kNearTheEdge = 0.3;   ///< in sizes: where the middle of an arc's chord does not tell its side
-constexpr double kCosineOfNear = 0.5;  ///< 60 degrees: minima of one body that lie nearer to each other are few
-
 /** PassNear says where outward is, PassOnSide where the middle is. */
 bool isOnSide(const PathElement& element, const ObstacleContact& contact) {
     const Surface& surface = *element.surface;
@@ -23,11 +20,9 @@ bool isOnSide(const PathElement& element, const ObstacleContact& contact) {
         const Vec3 N = contact.isTouched ? calcMiddleNormal(surface, contact) : contact.clearance.N;
         return !(element.side_S.dot(N) < -kOnTheEdge);
     }
-    const double size = surface.getSize();
-    double onSide = element.side_S.dot(contact.isTouched ? calcMiddlePoint(surface, contact) : contact.clearance.C.p);
-    if (contact.isTouched && std::abs(onSide) < kNearTheEdge * size)
-        onSide = element.side_S.dot(findMiddlePoint(surface, contact));
-    return !(onSide < -kOnTheEdge * size);
+    const double onSide = contact.isTouched ? calcMiddleAlong(surface, contact, element.side_S)
+                                            : element.side_S.dot(contact.clearance.C.p);
+    return !(onSide < -kOnTheEdge * surface.getSize());
 }
 
 /** The angle nearest to the hint's is off by half a turn at most; by a little more where the path's neighbors may stand
