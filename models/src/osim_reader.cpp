@@ -9,6 +9,7 @@
 #include "read_controllers.h"
 #include "read_forces.h"
 #include "read_joints.h"
+#include "read_meshes.h"
 #include "read_paths.h"
 #include "read_text.h"
 #include "read_wrap_objects.h"
@@ -66,6 +67,7 @@ void collectOwnedFrames(Element& model, BodyParts& parts) {
 /** All that stands on bodies and pulls at them. */
 void readActingParts(Element& element, BodyParts& parts) {
     readWrapObjects(parts);
+    readMeshes(parts);
     readConstraints(element, parts.frames);
     readContactGeometries(element, parts.frames);
     readForces(element, parts.frames);

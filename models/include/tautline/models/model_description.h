@@ -429,6 +429,15 @@ struct ContactGeometry {
     int line = 0;
 };
 
+/** A mesh that a body looks like, such as a bone. It is only drawn. */
+struct BodyMesh {
+    std::string file;  ///< as the model names it; may be a bare name
+    std::string body;
+    Pose X_BM;
+    Vec3 scale = Vec3::Ones();  ///< by which the mesh's coordinates are multiplied, in its own frame
+    int line = 0;
+};
+
 /** What an element that is left out would change. */
 enum class Effect {
     None,
@@ -469,6 +478,7 @@ struct ModelDescription {
     std::vector<BodyForce> bodyForces;
     std::vector<PrescribedControl> controls;
     std::vector<ContactGeometry> contactGeometries;
+    std::vector<BodyMesh> meshes;
     std::vector<SkippedElements> skipped;
     std::vector<ReadingNote> notes;
 };
