@@ -7,6 +7,11 @@
 namespace tautline {
 namespace {
 
+/** "1 body", "2 bodies" */
+std::string count(std::size_t number, const char* one, const char* many) {
+    return std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
 /** What was left out with one effect: a line for each reason. */
 void printSkipped(const models::ModelDescription& description, models::Effect effect, const char* heading,
                   std::ostream& out) {
@@ -26,11 +31,15 @@ void printSkipped(const models::ModelDescription& description, models::Effect ef
 void printModelSummary(const models::ModelDescription& description, std::ostream& out) {
     std::size_t numCoordinates = 0;
     for (const models::Joint& joint : description.joints) numCoordinates += joint.coordinates.size();
-    out << description.fileName << ": model '" << description.name << "', " << description.bodies.size() << " bodies, "
-        << numCoordinates << " coordinates, " << description.muscles.size() << " muscles";
-    if (!description.springs.empty()) out << ", " << description.springs.size() << " path springs";
-    if (!description.pathForces.empty()) out << ", " << description.pathForces.size() << " other forces along paths";
-    if (!description.bodyForces.empty()) out << ", " << description.bodyForces.size() << " forces without a path";
+    out << description.fileName << ": model '" << description.name << "', "
+        << count(description.bodies.size(), "body", "bodies") << ", "
+        << count(numCoordinates, "coordinate", "coordinates") << ", "
+        << count(description.muscles.size(), "muscle", "muscles");
+    if (!description.springs.empty()) out << ", " << count(description.springs.size(), "path spring", "path springs");
+    if (!description.pathForces.empty())
+        out << ", " << count(description.pathForces.size(), "other force along a path", "other forces along paths");
+    if (!description.bodyForces.empty())
+        out << ", " << count(description.bodyForces.size(), "force without a path", "forces without a path");
     out << "\n";
 }
 

@@ -9,6 +9,7 @@ extern const char* const kStyle;
 extern const char* const kScript;
 extern const char* const kThree;
 extern const char* const kControls;
+extern const char* const kLines;
 extern const char* const kChart;
 extern const char* const kThreeLicense;
 extern const char* const kChartLicense;

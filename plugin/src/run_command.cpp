@@ -7,16 +7,17 @@
 #include <stdexcept>
 
 #include "earlier_run.h"
-#include "html_report.h"
 #include "interruption.h"
 #include "model_report.h"
 #include "name_pattern.h"
 #include "plots.h"
 #include "progress_bar.h"
 #include "run_report.h"
+#include "run_watcher.h"
 #include "simulation.h"
 #include "tautline/models/external_loads.h"
 #include "tautline/models/osim_reader.h"
+#include "visualizer.h"
 
 namespace tautline {
 
@@ -103,8 +104,8 @@ void RunCommand::declare(CLI::App& app) {
     app.add_flag("--all", simulation.recordsAllArms,
                  "moment arms of all paths about all coordinates, not only those that a path crosses");
     app.add_flag("--allow-degraded", allowsDegraded, "exit with 0 even if some steps had no verified shortest path");
-    app.add_option("--report", report,
-                   "write a page (.html) to look at the run: model, paths, curves, events, statuses");
+    page.declare(app, "the run: model, paths, curves, events, statuses");
+    app.add_flag("--visualize", visualizes, "watch the run in a window of Simbody's visualizer (simbody-visualizer)");
     app.add_flag("--plot", drawsCurves, "draw the results with gnuplot: a picture (.svg) of each path's curves");
 }
 
@@ -209,6 +210,8 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
     int numDefault = 0;
     const auto muscleExcitations = makeExcitations(given, names, numDefault, notes);
     if (drawsCurves) requireGnuplot();
+    if (!page.report.empty()) requireReportAssets();
+    if (visualizes) findVisualizer();
     printModelSummary(description, out);
     printReadingNotes(description, out);
     printMuscleTypes(description, out);
@@ -217,18 +220,15 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
         out << "excitation: " << kDefaultExcitation << " for "
             << (numDefault == static_cast<int>(names.size()) ? "all " : "") << numDefault << " muscles\n";
     addExternalLoads(description, model, out);
-    std::optional<ReportRecorder> page;
-    if (!report.empty()) page.emplace(model, description.gravity);
+    RunWatcher watcher(page, visualizes, description, model, out);
     std::filesystem::create_directories(outFolder);
 
     ProgressBar bar(out, isTerminal);
     const Interruption interruption;
     SimulationResult result = simulate(
         model, muscleExcitations, options, [&bar](double share) { bar.show(share); },
-        [&page](const SimTK::State& state) {
-            if (page) page->recordFrame(state);
-        },
-        initial, [&interruption] { return interruption.isRequested(); });
+        [&watcher](const SimTK::State& state) { watcher.watch(state); }, initial,
+        [&interruption] { return interruption.isRequested(); });
     bar.clear();
     if (earlier) earlier->prependTo(result);
     const std::vector<std::string> files = writeResults(result);
@@ -236,13 +236,7 @@ int RunCommand::run(std::ostream& out, bool isTerminal) const {
     out << "results: ";
     for (std::size_t i = 0; i < files.size(); ++i) out << (i ? ", " : "") << files[i];
     out << "\n";
-    if (page) {
-        std::ostringstream summary;
-        printModelSummary(description, summary);
-        if (report.has_parent_path()) std::filesystem::create_directories(report.parent_path());
-        writeWhole(page->makePage(description.name, summary.str(), result), report);
-        out << "page: " << report.string() << "\n";
-    }
+    watcher.finish(result, out);
     printEnding(result.ending, initial.time + options.duration, out);
     if (result.ending.kind == SimulationEnding::Kind::Interrupted) return 130;
     if (drawsCurves) {

@@ -7,6 +7,7 @@
 
 #include "excitations.h"
 #include "initial_state.h"
+#include "page_options.h"
 #include "simulation_options.h"
 
 namespace tautline {
@@ -29,9 +30,9 @@ struct RunCommand {
     std::vector<double> gravity;               ///< in ground [m/s^2]; empty: the model's
     bool allowsDegraded = false;
     bool drawsCurves = false;
-    bool resumes = false;  ///< goes on from where an interrupted run into the same folder has ended
-    /** The page to look at; empty: none. */
-    std::filesystem::path report;
+    bool resumes = false;     ///< goes on from where an interrupted run into the same folder has ended
+    bool visualizes = false;  ///< in a window of Simbody's visualizer
+    PageOptions page;
 
     /** Declares the options in a subcommand. */
     void declare(CLI::App& app);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 
 #include "model_report.h"
@@ -11,6 +12,7 @@
 #include "progress_bar.h"
 #include "solve_report.h"
 #include "study_tables.h"
+#include "study_watcher.h"
 #include "tautline/models/osim_reader.h"
 #include "text_table.h"
 
@@ -58,6 +60,7 @@ void SolveCommand::declare(CLI::App& app) {
         ->allow_extra_args(false);
     app.add_option("--out", outFolder, "folder of the results, made if missing")->capture_default_str();
     app.add_flag("--allow-degraded", allowsDegraded, "exit with 0 even if some paths are no verified shortest ones");
+    page.declare(app, "the poses: model, paths, curves, statuses");
 }
 
 int SolveCommand::run(std::ostream& out, bool isTerminal) const {
@@ -76,11 +79,14 @@ int SolveCommand::run(std::ostream& out, bool isTerminal) const {
             frame.values[given.name] = given.value;
             frame.speeds[given.name] = 0.0;
         }
+    if (!page.report.empty()) requireReportAssets();
     models::PathStudy study(description,
                             [this](const std::string& name) { return patterns.empty() || matchesAny(name, patterns); });
     printModelSummary(description, out);
     printReadingNotes(description, out);
     if (!motionFile.empty()) printMotion(motionFile, motion, held, out);
+    std::optional<StudyWatcher> watcher;
+    if (!page.report.empty()) watcher.emplace(page, description, study, out);
 
     std::vector<double> times;
     std::vector<models::PoseAnswer> answers;
@@ -89,6 +95,7 @@ int SolveCommand::run(std::ostream& out, bool isTerminal) const {
     for (const models::ModelPose& frame : motion.poses) {
         times.push_back(frame.time);
         answers.push_back(study.solve(frame));
+        if (watcher) watcher->watch(times.back(), answers.back());
         bar.show(static_cast<double>(answers.size()) / static_cast<double>(motion.poses.size()));
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -104,6 +111,7 @@ int SolveCommand::run(std::ostream& out, bool isTerminal) const {
         << " paths in " << format(seconds, 3) << " s\n";
     out << "results: " << (outFolder / "paths.sto").string() << ", " << (outFolder / "moment_arms.sto").string() << ", "
         << (outFolder / "coordinates.sto").string() << ", " << (outFolder / "statuses.csv").string() << "\n";
+    if (watcher) watcher->finish(times, answers, out);
 
     if (allowsDegraded) return 0;
     for (const models::PoseAnswer& answer : answers) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "page_options.h"
+
 namespace tautline {
 
 /** `tautline solve`: lengths, lengthening speeds, contacts and moment arms of a model's paths along a motion or in one
@@ -16,6 +18,7 @@ struct SolveCommand {
     std::vector<std::string> patterns;  ///< of paths; empty: all
     std::vector<std::string> ignored;   ///< elements of the model, and columns of the motion
     bool allowsDegraded = false;
+    PageOptions page;
 
     /** Declares the options in a subcommand. */
     void declare(CLI::App& app);
