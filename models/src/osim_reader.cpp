@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "document.h"
 #include "read_bodies.h"
 #include "read_constraints.h"
 #include "read_contact_geometry.h"
@@ -144,19 +145,6 @@ std::string listUnknown(const std::string& fileName, const std::vector<UnknownEl
     return list;
 }
 
-/** Calls read(), and refuses what is unknown all at once. */
-template <class Read>
-void readAll(Reading& reading, Read read) {
-    const std::string& fileName = reading.source.getFileName();
-    try {
-        read();
-    } catch (const ModelError& error) {
-        if (reading.unknown.empty()) throw;
-        throw UnknownElementsError(fileName, reading.unknown, error.what());
-    }
-    if (!reading.unknown.empty()) throw UnknownElementsError(fileName, reading.unknown);
-}
-
 }  // namespace
 
 UnknownElementsError::UnknownElementsError(const std::string& fileName, std::vector<UnknownElement> elements,
@@ -165,31 +153,22 @@ UnknownElementsError::UnknownElementsError(const std::string& fileName, std::vec
       m_elements(std::move(elements)) {}
 
 ModelDescription readOsimText(std::string_view text, const std::string& fileName, const ReadingOptions& options) {
-    const XmlSource source(text, fileName);
-    ModelDescription model;
-    model.fileName = fileName;
-    Reading reading{source, options, model, {}};
-    Element document(reading, source.getRoot());
-    if (document.getTag() != "OpenSimDocument")
-        document.fail("the document is a " + document.getTag() + ", not an OpenSimDocument");
-    model.documentVersion = readVersion(document, source.getRoot().attribute("Version").value());
-    Element element = document.require("Model");
-    document.refuseUnknown();
-    readAll(reading, [&] { readModel(element); });
-    return model;
+    Document document(text, fileName, options);
+    document.requireRoot("OpenSimDocument");
+    Element& root = document.updRoot();
+    document.updModel().documentVersion = readVersion(root, document.getVersion());
+    Element element = root.require("Model");
+    root.refuseUnknown();
+    document.read([&] { readModel(element); });
+    return std::move(document.updModel());
 }
 
 ModelDescription readForcesText(std::string_view text, const std::string& fileName,
                                 const std::vector<std::string>& bodies, const ReadingOptions& options) {
-    const XmlSource source(text, fileName);
-    ModelDescription model;
-    model.fileName = fileName;
-    Reading reading{source, options, model, {}};
-    Element document(reading, source.getRoot());
-    if (document.getTag() != "TautlineForces")
-        document.fail("the document is a " + document.getTag() + ", not TautlineForces");
-    readAll(reading, [&] { readHostForces(document, bodies); });
-    return model;
+    Document document(text, fileName, options);
+    document.requireRoot("TautlineForces");
+    document.read([&] { readHostForces(document.updRoot(), bodies); });
+    return std::move(document.updModel());
 }
 
 ModelDescription readOsimFile(const std::filesystem::path& file, const ReadingOptions& options) {
@@ -198,23 +177,19 @@ ModelDescription readOsimFile(const std::filesystem::path& file, const ReadingOp
 
 std::vector<OwnedPathFunctions> readFunctionBasedPaths(const std::filesystem::path& file,
                                                        const ModelDescription& model) {
-    const std::string text = readText(file);
-    const XmlSource source(text, file.string());
-    const ReadingOptions options;
-    ModelDescription known = model;
-    Reading reading{source, options, known, {}};
-    Element document(reading, source.getRoot());
-    Element set = document.findAny({"Set_FunctionBasedPath_", "FunctionBasedPathSet"});
-    if (!set) document.fail("the document has no set of FunctionBasedPaths");
+    Document document(readText(file), file.string(), {}, model);
+    Element set = document.updRoot().findAny({"Set_FunctionBasedPath_", "FunctionBasedPathSet"});
+    if (!set) document.updRoot().fail("the document has no set of FunctionBasedPaths");
     std::vector<OwnedPathFunctions> paths;
-    for (const Element& member : set.getSetMembers()) {
-        if (member.getTag() == "FunctionBasedPath")
-            paths.push_back(
-                {member.getName(), *readPath(member, "'" + member.getName() + "'", FrameTable()).functions});
-        else
-            member.refuse("path", Effect::Motion);
-    }
-    if (!reading.unknown.empty()) throw UnknownElementsError(file.string(), reading.unknown);
+    document.read([&] {
+        for (const Element& member : set.getSetMembers()) {
+            if (member.getTag() == "FunctionBasedPath")
+                paths.push_back(
+                    {member.getName(), *readPath(member, "'" + member.getName() + "'", FrameTable()).functions});
+            else
+                member.refuse("path", Effect::Motion);
+        }
+    });
     return paths;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
 
+#include "document.h"
 #include "frame_table.h"
 #include "read_forces.h"
 #include "read_text.h"
@@ -42,29 +43,24 @@ ExternalForce readExternalForce(Element element, const FrameTable& frames) {
 }  // namespace
 
 ExternalLoads readExternalLoads(const std::filesystem::path& file, const ModelDescription& model) {
-    const std::string text = readText(file);
-    const XmlSource source(text, file.string());
-    const ReadingOptions options;
-    ModelDescription known = model;
-    Reading reading{source, options, known, {}};
+    Document document(readText(file), file.string(), {}, model);
     FrameTable frames;
     frames.addBody(kGroundName);
     for (const Body& body : model.bodies) frames.addBody(body.name);
-
-    Element document(reading, source.getRoot());
-    Element set = document.require("ExternalLoads");
+    Element set = document.updRoot().require("ExternalLoads");
     ExternalLoads loads;
     loads.fileName = file.string();
     loads.dataFile = findText(set, "datafile");
     set.skip({"external_loads_model_kinematics_file", "lowpass_cutoff_frequency_for_load_kinematics"},
              "of tools that move points between bodies");
-    for (const Element& member : set.getSetMembers()) {
-        if (member.getTag() == "ExternalForce")
-            loads.forces.push_back(readExternalForce(member, frames));
-        else
-            member.refuse("external load", Effect::Forces);
-    }
-    if (!reading.unknown.empty()) throw UnknownElementsError(file.string(), reading.unknown);
+    document.read([&] {
+        for (const Element& member : set.getSetMembers()) {
+            if (member.getTag() == "ExternalForce")
+                loads.forces.push_back(readExternalForce(member, frames));
+            else
+                member.refuse("external load", Effect::Forces);
+        }
+    });
     return loads;
 }
 

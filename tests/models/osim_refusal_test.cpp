@@ -101,9 +101,7 @@ TEST(OsimRefusal, EachEditHasItsMessage) {
     const Edit edits[] = {
         {"\"40000\"", "\"x\"", "m.osim:1: the document version 'x' is not a number"},
         {"\"40000\"", "\"50000\"", "m.osim:1: document version 50000 is newer than 40600, the newest that is known"},
-        {"OpenSimDocument", "Document",
-         "m.osim:1: the document is a Document, not an "
-         "OpenSimDocument"},
+        {"OpenSimDocument", "Document", "m.osim:1: the document is <Document>, not <OpenSimDocument>"},
         {">0 -9.81 0<", ">0 -9.81<", "m.osim:3: gravity of Model 'm' has 2 numbers instead of 3"},
         {">0 -9.81 0<", ">0 -9.8l 0<", "m.osim:3: '-9.8l' is not a number in gravity of Model 'm'"},
         {">0 -9.81 0<", ">0 NaN 0<", "m.osim:3: 'NaN' is not a finite number in gravity"},

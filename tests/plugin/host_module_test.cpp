@@ -183,7 +183,7 @@ struct RefusedText {
 TEST_F(HostModule, RefusesADescriptionByItsLineAndLeavesTheSystemAlone) {
     const RefusedText cases[] = {
         {"not XML", "<TautlineForces>\n<ForceSet>\n", 2, "host.xml:2: not well-formed XML"},
-        {"another document", "<OpenSimDocument/>", 1, "the document is a OpenSimDocument, not TautlineForces"},
+        {"another document", "<OpenSimDocument/>", 1, "the document is <OpenSimDocument>, not <TautlineForces>"},
         {"unknown body", describeTension("femur"), 6,
          "there is no body or frame 'femur', the socket_parent_frame of PathPoint 'b'"},
         {"body out of range", describeTension("2"), 6, "there is no body or frame '2'"},
