@@ -7,6 +7,7 @@
 
 #include "name_pattern.h"
 #include "storage_file.h"
+#include "tautline/models/control_set.h"
 
 namespace tautline {
 namespace {
@@ -20,20 +21,6 @@ bool isMuscle(const std::vector<std::string>& muscles, const std::string& name) 
     return std::find(muscles.begin(), muscles.end(), name) != muscles.end();
 }
 
-/** Linear between the rows of two columns of a table. */
-Excitation interpolate(const StorageTable& table, std::size_t column) {
-    std::vector<std::pair<double, double>> points;
-    for (const std::vector<double>& row : table.rows) points.emplace_back(row[0], row[column]);
-    return [points](double t) {
-        const auto after = std::upper_bound(points.begin(), points.end(), t,
-                                            [](double time, const auto& point) { return time < point.first; });
-        if (after == points.begin()) return points.front().second;
-        if (after == points.end()) return points.back().second;
-        const auto before = after - 1;
-        return before->second + (t - before->first) / (after->first - before->first) * (after->second - before->second);
-    };
-}
-
 /** The muscle of a column; empty if it is of none. */
 std::string findMuscleOf(std::string label, const std::vector<std::string>& muscles) {
     const std::string folder = "/forceset/", end = ".excitation";
@@ -44,37 +31,61 @@ std::string findMuscleOf(std::string label, const std::vector<std::string>& musc
     return isMuscle(muscles, label) ? label : "";
 }
 
-/** Puts the numbers of a column into [0, 1]. @return how many were outside, or no numbers */
-std::size_t clipColumn(StorageTable& table, std::size_t column) {
-    std::size_t numClipped = 0;
-    for (std::vector<double>& row : table.rows) {
-        if (row[column] >= 0 && row[column] <= 1) continue;
-        row[column] = row[column] > 1 ? 1.0 : 0.0;
-        ++numClipped;
+/** One excitation of a file. */
+struct FileEntry {
+    std::string label;
+    models::Control control;
+    std::size_t numClipped = 0;  ///< of its values: outside [0, 1], or no numbers
+};
+
+void clip(FileEntry& entry) {
+    for (auto& [time, value] : entry.control.nodes) {
+        if (value >= 0 && value <= 1) continue;
+        value = value > 1 ? 1.0 : 0.0;
+        ++entry.numClipped;
     }
-    return numClipped;
+}
+
+std::vector<FileEntry> readColumns(const std::filesystem::path& file) {
+    const StorageTable table = readStorage(file);
+    std::vector<FileEntry> entries;
+    for (std::size_t column = 1; column < table.labels.size(); ++column) {
+        entries.push_back({table.labels[column], {}});
+        for (const std::vector<double>& row : table.rows) entries.back().control.nodes.push_back({row[0], row[column]});
+        entries.back().control.extrapolates = false;
+    }
+    return entries;
+}
+
+std::vector<FileEntry> readControls(const std::filesystem::path& file) {
+    std::vector<FileEntry> entries;
+    for (models::Control& control : models::readControlSet(file)) entries.push_back({control.name, std::move(control)});
+    return entries;
 }
 
 void readFile(const std::filesystem::path& file, const std::vector<std::string>& muscles,
               std::map<std::string, Excitation>& excitations, std::vector<std::string>& notes) {
-    if (file.extension() == ".xml")
-        throw std::runtime_error(file.string() +
-                                 ": control sets (.xml) are not read; give the controls as a storage file (.sto)");
-    StorageTable table = readStorage(file);
+    std::vector<FileEntry> entries = file.extension() == ".xml" ? readControls(file) : readColumns(file);
     std::vector<std::string> unused, clipped;
-    for (std::size_t column = 1; column < table.labels.size(); ++column) {
-        const std::string name = findMuscleOf(table.labels[column], muscles);
+    for (FileEntry& entry : entries) {
+        const std::string name = findMuscleOf(entry.label, muscles);
         if (name.empty()) {
-            unused.push_back(table.labels[column]);
+            unused.push_back(entry.label);
             continue;
         }
-        if (const std::size_t count = clipColumn(table, column); count > 0)
-            clipped.push_back(name + " (" + std::to_string(count) + " of " + std::to_string(table.rows.size()) + ")");
-        excitations[name] = interpolate(table, column);
+        clip(entry);
+        if (entry.numClipped > 0)
+            clipped.push_back(name + " (" + std::to_string(entry.numClipped) + " of " +
+                              std::to_string(entry.control.nodes.size()) + ")");
+        // Lines that go on beyond the nodes may leave the unit interval.
+        excitations[name] = [control = std::move(entry.control)](double t) {
+            return std::clamp(control.calcValue(t), 0.0, 1.0);
+        };
     }
-    if (unused.size() + 1 == table.labels.size())
-        throw std::runtime_error(file.string() + ": no column is a muscle of the model; it has " + listNames(muscles));
-    if (!unused.empty()) notes.push_back(file.string() + ": columns of no muscle, not used: " + listNames(unused));
+    if (unused.size() == entries.size())
+        throw std::runtime_error(file.string() + ": nothing in it is a muscle of the model; it has " +
+                                 listNames(muscles));
+    if (!unused.empty()) notes.push_back(file.string() + ": of no muscle and not used: " + listNames(unused));
     if (!clipped.empty())
         notes.push_back(file.string() + ": excitations outside [0, 1] are clipped: " + listNames(clipped));
 }

@@ -76,8 +76,34 @@ TEST(Excitations, OfAFileAreClippedWithANoteAndOtherColumnsNotUsedWithAnother) {
     EXPECT_EQ(excitations.at("biceps")(2), 0.0);
     EXPECT_EQ(excitations.at("triceps")(1.5), 0.5);
     ASSERT_EQ(notes.size(), 2u);
-    EXPECT_EQ(notes[0], file.string() + ": columns of no muscle, not used: FX");
+    EXPECT_EQ(notes[0], file.string() + ": of no muscle and not used: FX");
     EXPECT_EQ(notes[1], file.string() + ": excitations outside [0, 1] are clipped: biceps (3 of 3)");
+}
+
+TEST(Excitations, FromAControlSetAreStepsOrLinesKeptInTheUnitInterval) {
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "tautline_controls_test.xml";
+    const auto makeNode = [](const char* t, const char* value) {
+        return std::string("<ControlLinearNode><t>") + t + "</t><value>" + value + "</value></ControlLinearNode>";
+    };
+    std::ofstream(file) << "<OpenSimDocument Version=\"30000\"><ControlSet name=\"c\"><objects>"
+                        << "<ControlLinear name=\"biceps.excitation\"><use_steps>true</use_steps><x_nodes>"
+                        << makeNode("0", "0.1") << makeNode("1", "0.6") << makeNode("2", "1.3")
+                        << "</x_nodes></ControlLinear><ControlLinear name=\"triceps\"><x_nodes>" << makeNode("0", "0.2")
+                        << makeNode("1", "0.4") << "</x_nodes></ControlLinear>"
+                        << "<ControlConstant name=\"hand\"><value>1</value></ControlConstant></objects></ControlSet>"
+                        << "</OpenSimDocument>";
+    int numDefault;
+    std::vector<std::string> notes;
+    const auto excitations = makeExcitations({{}, file}, kMuscles, numDefault, notes);
+    EXPECT_EQ(numDefault, 0);
+    EXPECT_EQ(excitations.at("biceps")(0.5), 0.6);
+    EXPECT_EQ(excitations.at("biceps")(1.5), 1.0);
+    EXPECT_NEAR(excitations.at("triceps")(2), 0.6, 1e-15);
+    EXPECT_EQ(excitations.at("triceps")(9), 1.0) << "the line goes on to 2";
+    EXPECT_EQ(excitations.at("triceps")(-9), 0.0);
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0], file.string() + ": of no muscle and not used: hand");
+    EXPECT_EQ(notes[1], file.string() + ": excitations outside [0, 1] are clipped: biceps (1 of 3)");
 }
 
 TEST(Excitations, BadOnesAreRefusedByName) {
@@ -89,9 +115,10 @@ TEST(Excitations, BadOnesAreRefusedByName) {
     expectRefused({{"biceps=nan"}, {}}, "an excitation lies in [0, 1]");
     expectRefused({{"soleus=0.1"}, {}}, "no muscle 'soleus'; it has biceps, triceps");
     expectRefused({{"biceps=0.1", "biceps=0.2"}, {}}, "given twice");
-    expectRefused({{}, "controls.xml"}, "controls.xml: control sets (.xml) are not read");
+    expectRefused({{}, "controls.xml"}, "controls.xml: the file cannot be read");
     expectRefused({{"sol*=0.1"}, {}}, "no muscle 'sol*'; it has biceps, triceps");
-    expectRefused({{}, makeFile("time soleus\n0 0.1\n")}, "no column is a muscle of the model; it has biceps, triceps");
+    expectRefused({{}, makeFile("time soleus\n0 0.1\n")},
+                  "nothing in it is a muscle of the model; it has biceps, triceps");
 }
 
 }  // namespace
