@@ -42,16 +42,29 @@ const BuiltModel::CoordinateSlot& BuiltModel::getCoordinateSlot(const std::strin
 }
 
 void BuiltModel::setDefaultPose(SimTK::State& state) const {
+    setPose(state, false);
+}
+
+void BuiltModel::setRestingPose(SimTK::State& state) const {
+    setPose(state, true);
+}
+
+void BuiltModel::setPose(SimTK::State& state, bool isAtRest) const {
     for (const auto& [name, slot] : m_coordinates) {
         const auto& motion = slot.prescribedMotion;
-        setCoordinate(state, name, motion ? motion->calcValue(state.getTime()) : slot.defaultValue);
-        setCoordinateSpeed(state, name, motion ? motion->calcDerivative(state.getTime()) : slot.defaultSpeed);
+        const double speed = isAtRest ? 0.0 : slot.defaultSpeed;
+        setCoordinate(state, slot, motion ? motion->calcValue(state.getTime()) : slot.defaultValue);
+        m_matter->getMobilizedBody(slot.body).setOneU(state, slot.u,
+                                                      motion ? motion->calcDerivative(state.getTime()) : speed);
     }
     applyCouplers(state);
 }
 
 void BuiltModel::setCoordinate(SimTK::State& state, const std::string& name, double value) const {
-    const CoordinateSlot& slot = getCoordinateSlot(name);
+    setCoordinate(state, getCoordinateSlot(name), value);
+}
+
+void BuiltModel::setCoordinate(SimTK::State& state, const CoordinateSlot& slot, double value) const {
     m_matter->getMobilizedBody(slot.body).setOneQ(state, slot.q, value);
     if (!slot.lock.isValid()) return;
     SimTK::Constraint::ConstantCoordinate::downcast(m_matter->getConstraint(slot.lock)).setPosition(state, value);

@@ -25,6 +25,32 @@ Matrix calcConstraintMatrix(const SimTK::SimbodyMatterSubsystem& matter, const S
     return copy;
 }
 
+int findMobility(const BuiltModel& model, const BuiltModel::CoordinateSlot& slot, const SimTK::State& state) {
+    return model.getMatter().getMobilizedBody(slot.body).getFirstUIndex(state) + slot.u;
+}
+
+/** The same of the couplers alone, without Simbody, which takes longer for it than all paths do. */
+Matrix calcCouplerMatrix(const BuiltModel& model, const SimTK::State& state) {
+    const std::vector<CoordinateCoupler>& couplers = model.getCouplers();
+    Matrix G = Matrix::Zero(static_cast<Eigen::Index>(couplers.size()), state.getNU());
+    for (std::size_t row = 0; row < couplers.size(); ++row) {
+        const auto add = [&](const std::string& coordinate, double factor) {
+            G(static_cast<Eigen::Index>(row), findMobility(model, model.getCoordinateSlot(coordinate), state)) +=
+                factor;
+        };
+        add(couplers[row].dependentCoordinate, -1);
+        const std::vector<std::string>& independents = couplers[row].independentCoordinates;
+        for (std::size_t i = 0; i < independents.size(); ++i)
+            add(independents[i], model.calcCouplingSlope(state, couplers[row], static_cast<int>(i)));
+    }
+    return G;
+}
+
+/** Whether a constraint keeps a coordinate where it is, or where its motion says. */
+bool isHeld(const BuiltModel::CoordinateSlot& slot) {
+    return slot.lock.isValid() || slot.drive.isValid();
+}
+
 /** The mobility that a row holds alone, as locks and single driven coordinates do; -1 if there is none. */
 int findHeldMobility(const Matrix& G, Eigen::Index row) {
     Eigen::Index largest = 0;
@@ -34,58 +60,94 @@ int findHeldMobility(const Matrix& G, Eigen::Index row) {
 }
 
 /** Speeds that are free or held by locks, and the equations that bind several. */
-struct SpeedEquations {
-    Matrix G;                  ///< without rows that hold one mobility
-    std::vector<char> isHeld;  ///< by mobility
-
-    SpeedEquations(const BuiltModel& model, const SimTK::State& state) : isHeld(state.getNU(), 0) {
-        const Matrix all = calcConstraintMatrix(model.getMatter(), state);
+class SpeedEquations {
+public:
+    /** @param heldBesides   mobilities that no row holds, but that are held all the same */
+    SpeedEquations(const Matrix& all, const std::vector<int>& heldBesides)
+        : m_isHeld(static_cast<std::size_t>(all.cols()), 0), m_columns(m_isHeld.size(), -1) {
+        for (const int mobility : heldBesides) m_isHeld[static_cast<std::size_t>(mobility)] = 1;
         std::vector<Eigen::Index> rows;
         for (Eigen::Index i = 0; i < all.rows(); ++i) {
             const int held = findHeldMobility(all, i);
             if (held >= 0)
-                isHeld[static_cast<std::size_t>(held)] = 1;
+                m_isHeld[static_cast<std::size_t>(held)] = 1;
             else
                 rows.push_back(i);
         }
-        G.resize(static_cast<Eigen::Index>(rows.size()), all.cols());
-        for (std::size_t i = 0; i < rows.size(); ++i) G.row(static_cast<Eigen::Index>(i)) = all.row(rows[i]);
+        for (Eigen::Index u = 0; u < all.cols(); ++u)
+            if (std::any_of(rows.begin(), rows.end(), [&](Eigen::Index i) { return all(i, u) != 0; })) {
+                m_columns[static_cast<std::size_t>(u)] = static_cast<int>(m_bound.size());
+                m_bound.push_back(static_cast<int>(u));
+            }
+        m_G.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(m_bound.size()));
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            for (std::size_t j = 0; j < m_bound.size(); ++j)
+                m_G(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = all(rows[i], m_bound[j]);
     }
 
-    bool binds(int mobility) const { return G.rows() > 0 && G.col(mobility).cwiseAbs().maxCoeff() > 0; }
+    bool isHeld(int mobility) const { return m_isHeld[static_cast<std::size_t>(mobility)]; }
+    bool binds(int mobility) const { return m_columns[static_cast<std::size_t>(mobility)] >= 0; }
+    /** The mobilities that equations bind. */
+    const std::vector<int>& getBound() const { return m_bound; }
 
+    /** The allowed speeds of the bound mobilities nearest to that of one alone, which is let go if it is held.
+    @param mobility   bound, too */
+    Eigen::VectorXd calcNearestSpeeds(int mobility) {
+        const int column = m_columns[static_cast<std::size_t>(mobility)];
+        if (isHeld(mobility)) return calcProjection(mobility).col(column);
+        if (m_projection.size() == 0) m_projection = calcProjection(-1);
+        return m_projection.col(column);
+    }
+
+private:
     /** The projection onto the speeds that are allowed. @param released   a held mobility that may move; -1: none */
-    Matrix calcProjection(int released = -1) const {
-        Matrix free = G;
-        for (Eigen::Index u = 0; u < G.cols(); ++u)
-            if (isHeld[static_cast<std::size_t>(u)] && u != released) free.col(u).setZero();
-        Matrix projection = Matrix::Identity(G.cols(), G.cols());
-        if (free.rows() > 0) projection -= free.completeOrthogonalDecomposition().pseudoInverse() * free;
-        return projection;
+    Matrix calcProjection(int released) const {
+        Matrix free = m_G;
+        for (std::size_t j = 0; j < m_bound.size(); ++j)
+            if (isHeld(m_bound[j]) && m_bound[j] != released) free.col(static_cast<Eigen::Index>(j)).setZero();
+        return Matrix::Identity(free.cols(), free.cols()) -
+               free.completeOrthogonalDecomposition().pseudoInverse() * free;
     }
+
+    std::vector<char> m_isHeld;  ///< by mobility
+    std::vector<int> m_columns;  ///< by mobility, of m_G; -1: no equation binds it
+    std::vector<int> m_bound;    ///< by column
+    Matrix m_G;                  ///< without rows that hold one mobility, and columns that are zero
+    Matrix m_projection;         ///< of all mobilities that are not held; computed if needed
 };
 
 }  // namespace
 
-CoordinateCoupling::CoordinateCoupling(const BuiltModel& model, const SimTK::State& state) {
-    const SpeedEquations equations(model, state);
-    Matrix shared;  // of all coordinates that are not held; computed if needed
-    for (const std::string& name : model.getCoordinateNames()) {
-        const BuiltModel::CoordinateSlot& slot = model.getCoordinateSlot(name);
-        const int own = model.getMatter().getMobilizedBody(slot.body).getFirstUIndex(state) + slot.u;
-        m_mobilities.push_back(own);
-        m_motions.emplace_back();
+CoordinateCoupling::CoordinateCoupling(const BuiltModel& model) : m_model(&model) {
+    for (const std::string& name : model.getCoordinateNames()) m_slots.push_back(&model.getCoordinateSlot(name));
+    m_mobilities.resize(m_slots.size());
+    m_motions.resize(m_slots.size());
+    const auto numHeld = std::count_if(m_slots.begin(), m_slots.end(), [](const auto* slot) { return isHeld(*slot); });
+    m_hasLoops = model.getMatter().getNumConstraints() != numHeld + static_cast<int>(model.getCouplers().size());
+}
+
+void CoordinateCoupling::update(const SimTK::State& state) {
+    std::vector<int> held;
+    for (std::size_t i = 0; i < m_slots.size(); ++i) {
+        m_mobilities[i] = findMobility(*m_model, *m_slots[i], state);
+        if (isHeld(*m_slots[i])) held.push_back(m_mobilities[i]);
+    }
+    SpeedEquations equations(
+        m_hasLoops ? calcConstraintMatrix(m_model->getMatter(), state) : calcCouplerMatrix(*m_model, state), held);
+    for (std::size_t i = 0; i < m_slots.size(); ++i) {
+        const int own = m_mobilities[i];
+        m_motions[i].clear();
         if (!equations.binds(own)) {
-            m_motions.back().push_back({own, 1.0});
+            m_motions[i].push_back({own, 1.0});
             continue;
         }
-        const bool isHeld = equations.isHeld[static_cast<std::size_t>(own)];
-        if (!isHeld && shared.size() == 0) shared = equations.calcProjection();
-        const Eigen::VectorXd speeds = isHeld ? equations.calcProjection(own).col(own) : shared.col(own);
-        if (!(speeds[own] > kLeastShare)) continue;
-        for (Eigen::Index u = 0; u < speeds.size(); ++u)
-            if (const double share = speeds[u] / speeds[own]; std::abs(share) > kRounding)
-                m_motions.back().push_back({static_cast<int>(u), share});
+        const Eigen::VectorXd speeds = equations.calcNearestSpeeds(own);
+        const auto at = std::find(equations.getBound().begin(), equations.getBound().end(), own);
+        const double ownSpeed = speeds[at - equations.getBound().begin()];
+        if (!(ownSpeed > kLeastShare)) continue;
+        for (Eigen::Index k = 0; k < speeds.size(); ++k)
+            if (const double share = speeds[k] / ownSpeed; std::abs(share) > kRounding)
+                m_motions[i].push_back({equations.getBound()[static_cast<std::size_t>(k)], share});
     }
 }
 

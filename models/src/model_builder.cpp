@@ -258,8 +258,9 @@ private:
             slot.lock = lock.getConstraintIndex();
         } else if (coordinate.prescribedMotion && !isDriven) {
             // A Motion drives a mobilizer as a whole; a coordinate among free ones needs a constraint.
-            SimTK::Constraint::PrescribedMotion(m_matter, new SimtkFunction(*coordinate.prescribedMotion), body,
-                                                slot.q);
+            SimTK::Constraint::PrescribedMotion drive(m_matter, new SimtkFunction(*coordinate.prescribedMotion), body,
+                                                      slot.q);
+            slot.drive = drive.getConstraintIndex();
         }
         if (!coordinate.locked) slot.prescribedMotion = coordinate.prescribedMotion;
         m_built.m_coordinates[coordinate.name] = slot;

@@ -51,15 +51,21 @@ bool hasDrivenCoordinates(const ModelDescription& description) {
     return false;
 }
 
-std::vector<ModelPose> makePoses(const ModelDescription& description) {
+/** A pose and its place in its sweep: 0 for one that stands alone. */
+struct CheckedPose {
+    ModelPose pose;
+    int place = 0;
+};
+
+std::vector<CheckedPose> makePoses(const ModelDescription& description) {
     const std::vector<FreeCoordinate> coordinates = findFreeCoordinates(description);
     const bool isDriven = hasDrivenCoordinates(description);
-    std::vector<ModelPose> poses(1);
+    std::vector<CheckedPose> poses(1);
     for (const FreeCoordinate& coordinate : coordinates) {
         for (int i = 0; i < kSweepSteps; ++i) {
             ModelPose pose;
             pose.values[coordinate.name] = coordinate.at(i / (kSweepSteps - 1.0));
-            poses.push_back(pose);
+            poses.push_back({pose, i});
         }
     }
     if (coordinates.empty() && !isDriven) return poses;
@@ -69,7 +75,7 @@ std::vector<ModelPose> makePoses(const ModelDescription& description) {
         ModelPose pose;
         if (isDriven) pose.time = kDrivenTime * draw();
         for (const FreeCoordinate& coordinate : coordinates) pose.values[coordinate.name] = coordinate.at(draw());
-        poses.push_back(pose);
+        poses.push_back({pose});
     }
     return poses;
 }
@@ -261,9 +267,9 @@ ModelCheck checkModel(const ModelDescription& description, const std::function<v
     std::vector<PathChecker> checkers;
     for (const StudiedPath& path : study.getPaths()) checkers.emplace_back(description, path);
     ModelCheck check;
-    const std::vector<ModelPose> poses = makePoses(description);
-    for (const ModelPose& pose : poses) {
-        const PoseAnswer answer = study.solve(pose);
+    const std::vector<CheckedPose> poses = makePoses(description);
+    for (const auto& [pose, place] : poses) {
+        const PoseAnswer answer = study.solve(pose, place);
         ++check.numPoses;
         if (reportProgress) reportProgress(check.numPoses / static_cast<double>(poses.size()));
         if (!answer.constraintFault.empty()) {

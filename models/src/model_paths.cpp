@@ -30,7 +30,7 @@ std::shared_ptr<const MovingStation> makeStation(const MovingLocation& moving, c
 }
 
 std::function<bool(const SimTK::State&)> makeCondition(const PathPoint& point, const BuiltModel& model) {
-    return [point, model](const SimTK::State& state) { return isPointActive(point, model, state); };
+    return [placed = PlacedPoint(point, model)](const SimTK::State& state) { return placed.isActive(state); };
 }
 
 /** A cable between the ends of a path. */

@@ -11,35 +11,53 @@ namespace {
 /** The room at both ends of a conditional point's range, as in the program the files come from. */
 constexpr double kRangeTolerance = 1e-5;
 
-SimTK::Vec3 calcMovingStation(const MovingLocation& moving, const BuiltModel& model, const SimTK::State& state) {
-    const auto& range = model.getCoordinateSlot(moving.coordinate).range;
-    const double q = std::clamp(model.getCoordinate(state, moving.coordinate), range[0], range[1]);
-    Vec3 location_F;
-    for (int i = 0; i < 3; ++i) location_F[i] = moving.location_F[i].calcValue(q);
-    return toSimTK(moving.X_BF * location_F);
-}
-
 }  // namespace
 
-bool isPointActive(const PathPoint& point, const BuiltModel& model, const SimTK::State& state) {
-    const auto* condition = std::get_if<ConditionalLocation>(&point.kind);
-    if (!condition) return true;
-    const double q = model.getCoordinate(state, condition->coordinate);
-    return q >= condition->range[0] - kRangeTolerance && q <= condition->range[1] + kRangeTolerance;
+PlacedPoint::PlacedPoint(const PathPoint& point, const BuiltModel& model)
+    : m_matter(&model.getMatter()), m_body(model.getBodyIndex(point.body)), m_station_B(toSimTK(point.location)) {
+    const auto setCoordinate = [&](const std::string& name) {
+        const BuiltModel::CoordinateSlot& slot = model.getCoordinateSlot(name);
+        m_coordinateBody = slot.body, m_q = slot.q, m_low = slot.range[0], m_high = slot.range[1];
+    };
+    if (const auto* moving = std::get_if<MovingLocation>(&point.kind)) {
+        m_moving = std::make_shared<const MovingLocation>(*moving);
+        setCoordinate(moving->coordinate);
+    } else if (const auto* condition = std::get_if<ConditionalLocation>(&point.kind)) {
+        m_isConditional = true;
+        setCoordinate(condition->coordinate);
+        m_low = condition->range[0] - kRangeTolerance, m_high = condition->range[1] + kRangeTolerance;
+    }
 }
 
-SimTK::Vec3 calcPointStation(const PathPoint& point, const BuiltModel& model, const SimTK::State& state) {
-    const auto* moving = std::get_if<MovingLocation>(&point.kind);
-    return moving ? calcMovingStation(*moving, model, state) : toSimTK(point.location);
+double PlacedPoint::getCoordinate(const SimTK::State& state) const {
+    return m_matter->getMobilizedBody(m_coordinateBody).getOneQ(state, m_q);
+}
+
+bool PlacedPoint::isInRange(const SimTK::State& state) const {
+    const double q = getCoordinate(state);
+    return q >= m_low && q <= m_high;
+}
+
+/** Past the range of its coordinate a moving point rests. */
+SimTK::Vec3 PlacedPoint::calcMoved(const SimTK::State& state) const {
+    const double q = std::clamp(getCoordinate(state), m_low, m_high);
+    Vec3 location_F;
+    for (int i = 0; i < 3; ++i) location_F[i] = m_moving->location_F[i].calcValue(q);
+    return toSimTK(m_moving->X_BF * location_F);
+}
+
+SimTK::Vec3 PlacedPoint::calcLocation(const SimTK::State& state) const {
+    return m_matter->getMobilizedBody(m_body).findStationLocationInGround(state, calcStation(state));
 }
 
 double calcPolygonLength(const MusclePath& path, const BuiltModel& model, const SimTK::State& state) {
     double length = 0.0;
     bool started = false;
     SimTK::Vec3 previous_G(0);
-    for (const PathPoint& point : path.points) {
-        if (!isPointActive(point, model, state)) continue;
-        const SimTK::Vec3 point_G = model.calcStationLocation(state, point.body, calcPointStation(point, model, state));
+    for (const PathPoint& given : path.points) {
+        const PlacedPoint point(given, model);
+        if (!point.isActive(state)) continue;
+        const SimTK::Vec3 point_G = point.calcLocation(state);
         if (started) length += (point_G - previous_G).norm();
         previous_G = point_G;
         started = true;

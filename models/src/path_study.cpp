@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "model_skeleton.h"
+#include "tautline/error.h"
 #include "tautline/models/coordinate_coupling.h"
 #include "tautline/models/model_system.h"
 
@@ -27,9 +29,7 @@ void requireFinite(const std::map<std::string, double>& numbers, const char* wha
 /** Sets all coordinates of a pose; constraints other than couplers are not met yet. */
 void setPose(const BuiltModel& model, const ModelPose& pose, State& state) {
     state.setTime(pose.time);
-    model.setDefaultPose(state);
-    for (const std::string& name : model.getCoordinateNames())
-        if (!model.getCoordinateSlot(name).prescribedMotion) model.setCoordinateSpeed(state, name, 0.0);
+    model.setRestingPose(state);
     for (const auto& [name, value] : pose.values) model.setCoordinate(state, name, value);
     for (const auto& [name, speed] : pose.speeds) model.setCoordinateSpeed(state, name, speed);
     model.applyCouplers(state);
@@ -57,14 +57,15 @@ bool keepsSides(const Cable& cable, const PathSolution& solution) {
     return deviation.kind == Kind::Side && !isTouched && !isEndless;
 }
 
-std::vector<ObstacleAnswer> getObstacles(const Cable& cable, const State& state) {
+std::vector<ObstacleAnswer> getObstacles(const Cable& cable, const PathSolution& solution) {
     std::vector<ObstacleAnswer> obstacles;
-    const PathSolution& solution = cable.getSolution(state);
-    for (CableElementIndex e(0); e < cable.getNumElements(); ++e)
-        if (cable.isObstacle(e))
-            obstacles.push_back({cable.isTouched(state, e),
-                                 solution.contacts[static_cast<std::size_t>(e)].isSwitchedOff,
-                                 cable.isTouched(state, e) ? cable.getArcLength(state, e) : 0});
+    const PathProblem& problem = cable.getPathProblem();
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (problem.getElement(e).isPoint()) continue;
+        const ObstacleContact& contact = solution.contacts[static_cast<std::size_t>(e)];
+        obstacles.push_back(
+            {contact.isTouched, contact.isSwitchedOff, contact.isTouched ? contact.geodesic.length : 0.0});
+    }
     return obstacles;
 }
 
@@ -73,9 +74,13 @@ std::vector<ObstacleAnswer> getObstacles(const Cable& cable, const State& state)
 class PathStudy::Implementation {
 public:
     Implementation(const ModelDescription& description, const std::function<bool(const std::string&)>& isWanted)
-        : m_system(description), m_skeleton(description), m_hasLoops(hasLoops(description)) {
+        : m_system(description) {
+        if (hasLoops(description)) m_skeleton.emplace(description);
         const auto isStudied = [&](const std::string& name) { return !isWanted || isWanted(name); };
         m_state = m_system.makeDefaultState();
+        m_system.getCables().setContactMode(m_state, ContactMode::Free);
+        for (const std::string& name : getModel().getCoordinateNames())
+            m_slots.push_back(&getModel().getCoordinateSlot(name));
         for (const ModelSystem::PathView& view : m_system.getPaths()) {
             if (isStudied(view.name)) {
                 m_cables.push_back(view.cable);
@@ -89,6 +94,7 @@ public:
             m_functions.push_back(slot.function);
             add({slot.name, slot.path, {}, slot.coordinates, {}});
         }
+        m_coupling = CoordinateCoupling(getModel());
     }
 
     const std::vector<StudiedPath>& getPaths() const { return m_paths; }
@@ -100,20 +106,24 @@ public:
         return {&cable.getPathProblem(), &cable.getPathPose(m_state), &cable.getSolution(m_state)};
     }
 
-    PoseAnswer solve(const ModelPose& pose) {
+    PoseAnswer solve(const ModelPose& pose, int place) {
         requireFinite(pose.values, "the value");
         requireFinite(pose.speeds, "the speed");
+        startFromLast(place);
         PoseAnswer answer;
         answer.constraintFault = realizePose(pose);
-        for (const std::string& name : getModel().getCoordinateNames()) {
-            answer.values.push_back(getModel().getCoordinate(m_state, name));
-            answer.speeds.push_back(getModel().getCoordinateSpeed(m_state, name));
+        m_lastPlace = place;
+        answer.values.reserve(m_slots.size()), answer.speeds.reserve(m_slots.size());
+        for (const BuiltModel::CoordinateSlot* slot : m_slots) {
+            const SimTK::MobilizedBody& body = getModel().getMatter().getMobilizedBody(slot->body);
+            answer.values.push_back(body.getOneQ(m_state, slot->q));
+            answer.speeds.push_back(body.getOneU(m_state, slot->u));
         }
-        const CoordinateCoupling coupling(m_skeleton.model, m_skeleton.state);
-        for (std::size_t i = 0; i < m_cables.size(); ++i)
-            answer.paths.push_back(answerCable(m_cables[i], m_coordinates[i], coupling));
-        for (std::size_t i = 0; i < m_functions.size(); ++i)
-            answer.paths.push_back(answerFunction(m_functions[i], m_coordinates[m_cables.size() + i], coupling));
+        m_coupling.update(m_state);
+        m_screws.update(getModel().getMatter(), m_state);
+        answer.paths.resize(m_paths.size());
+        for (std::size_t i = 0; i < m_cables.size(); ++i) answerCable(i, answer.paths[i]);
+        for (std::size_t i = 0; i < m_functions.size(); ++i) answerFunction(i, answer.paths[m_cables.size() + i]);
         return answer;
     }
 
@@ -127,77 +137,99 @@ private:
         m_paths.push_back(std::move(path));
     }
 
-    /** Finds the pose in the skeleton, where no path is solved on the way, and realizes all there.
+    /** Has the next paths continued from those of the last pose, or found anew where a block begins. */
+    void startFromLast(int place) {
+        require(place >= 0, "path study: the place of a pose is ", place, ", but must not be negative");
+        if (place % kPosesPerBlock == 0) return m_system.getCables().forgetPaths(m_state);
+        require(place == m_lastPlace + 1, "path study: the pose at place ", place, " comes after that at ", m_lastPlace,
+                ", but poses of a block must be solved one after another");
+        m_system.getCables().acceptPaths(m_state);
+    }
+
+    /** Realizes all in a pose; where loops have to be closed, this is found in the skeleton, where no path is solved on
+    the way.
     @return why constraints do not hold; empty if they do */
     std::string realizePose(const ModelPose& pose) {
-        setPose(m_skeleton.model, pose, m_skeleton.state);
+        m_lastPlace = kNone;
         std::string fault;
-        if (m_hasLoops) try {
-                m_skeleton.system.project(m_skeleton.state, kConstraintTolerance);
-            } catch (const std::exception&) {
-                setPose(m_skeleton.model, pose, m_skeleton.state);
-                m_skeleton.system.realize(m_skeleton.state, Stage::Position);
-                fault = "the constraints of the model cannot be met near these coordinates: they are broken by " +
-                        std::to_string(m_skeleton.state.getQErr().normInf());
-            }
-        m_skeleton.system.realize(m_skeleton.state, Stage::Velocity);
-        m_state.setTime(pose.time);
-        m_state.updQ() = m_skeleton.state.getQ();
-        m_state.updU() = m_skeleton.state.getU();
-        m_system.getSystem().realize(m_state, Stage::Velocity);
+        if (m_skeleton) {
+            fault = findClosedPose(pose);
+            m_state.setTime(pose.time);
+            m_state.updQ() = m_skeleton->state.getQ();
+            m_state.updU() = m_skeleton->state.getU();
+        } else {
+            setPose(getModel(), pose, m_state);
+        }
+        m_system.getSystem().realize(m_state, Stage::Position);
         return fault;
     }
 
-    PathAnswer answerCable(const Cable& cable, const std::vector<int>& coordinates,
-                           const CoordinateCoupling& coupling) {
-        PathAnswer answer;
+    std::string findClosedPose(const ModelPose& pose) {
+        State& state = m_skeleton->state;
+        setPose(m_skeleton->model, pose, state);
+        try {
+            m_skeleton->system.project(state, kConstraintTolerance);
+        } catch (const std::exception&) {
+            setPose(m_skeleton->model, pose, state);
+            m_skeleton->system.realize(state, Stage::Position);
+            return "the constraints of the model cannot be met near these coordinates: they are broken by " +
+                   std::to_string(state.getQErr().normInf());
+        }
+        return "";
+    }
+
+    void answerCable(std::size_t i, PathAnswer& answer) {
+        const Cable& cable = m_cables[i];
         const PathSolution& solution = cable.getSolution(m_state);
-        answer.length = cable.getLength(m_state);
-        answer.rate = cable.getLengthRate(m_state);
-        answer.status = cable.getStatus(m_state);
+        answer.length = solution.length;
+        answer.status = solution.status;
         answer.deviation = solution.deviation.kind;
         answer.keepsSides = keepsSides(cable, solution);
         if (answer.status != PathStatus::Solved || !answer.followsHints())
             answer.explanation = cable.explainStatus(m_state);
-        answer.obstacles = getObstacles(cable, m_state);
-        cable.calcUnitMobilityForces(m_state, m_unitForces);
-        addArms(coordinates, coupling, answer);
-        return answer;
+        if (!m_paths[i].obstacles.empty()) answer.obstacles = getObstacles(cable, solution);
+        cable.calcUnitMobilityForces(m_state, m_screws, m_unitForces);
+        answer.rate = -(~m_unitForces * m_state.getU());  // which is what these forces are
+        addArms(m_coordinates[i], answer);
     }
 
-    PathAnswer answerFunction(const FunctionBasedPath& function, const std::vector<int>& coordinates,
-                              const CoordinateCoupling& coupling) {
-        PathAnswer answer;
+    void answerFunction(std::size_t i, PathAnswer& answer) {
+        const FunctionBasedPath& function = m_functions[i];
         answer.length = function.calcLength(m_state);
         answer.rate = function.calcLengthRate(m_state);
         answer.status = PathStatus::Solved;
         m_unitForces.resize(m_state.getNU());
         m_unitForces = 0;
         const std::vector<double> arms = function.calcMomentArms(m_state);
-        for (std::size_t i = 0; i < arms.size(); ++i) {
-            const auto& slot = getModel().getCoordinateSlot(function.getCoordinateNames()[i]);
-            m_unitForces[getModel().getMatter().getMobilizedBody(slot.body).getFirstUIndex(m_state) + slot.u] = arms[i];
+        for (std::size_t k = 0; k < arms.size(); ++k) {
+            const auto& slot = getModel().getCoordinateSlot(function.getCoordinateNames()[k]);
+            m_unitForces[getModel().getMatter().getMobilizedBody(slot.body).getFirstUIndex(m_state) + slot.u] = arms[k];
         }
-        addArms(coordinates, coupling, answer);
-        return answer;
+        addArms(m_coordinates[m_cables.size() + i], answer);
     }
 
-    void addArms(const std::vector<int>& coordinates, const CoordinateCoupling& coupling, PathAnswer& answer) const {
+    void addArms(const std::vector<int>& coordinates, PathAnswer& answer) const {
+        answer.geometricArms.reserve(coordinates.size()), answer.effectiveArms.reserve(coordinates.size());
         for (const int coordinate : coordinates) {
-            answer.geometricArms.push_back(coupling.calcGeometricArm(m_unitForces, coordinate));
-            answer.effectiveArms.push_back(coupling.calcEffectiveArm(m_unitForces, coordinate));
+            answer.geometricArms.push_back(m_coupling.calcGeometricArm(m_unitForces, coordinate));
+            answer.effectiveArms.push_back(m_coupling.calcEffectiveArm(m_unitForces, coordinate));
         }
     }
+
+    static constexpr int kNone = -2;  ///< no pose, nor that before the first
 
     ModelSystem m_system;
-    State m_state;  ///< of m_system, with the cables that are not wanted disabled
-    ModelSkeleton m_skeleton;
-    bool m_hasLoops;
+    State m_state;                            ///< of m_system, with the cables that are not wanted disabled
+    std::optional<ModelSkeleton> m_skeleton;  ///< where loops of bodies are to be closed
+    std::vector<const BuiltModel::CoordinateSlot*> m_slots;
     std::vector<Cable> m_cables;
     std::vector<FunctionBasedPath> m_functions;
     std::vector<StudiedPath> m_paths;             ///< of the cables, then of the functions
     std::vector<std::vector<int>> m_coordinates;  ///< by path: indices of those that it crosses
+    CoordinateCoupling m_coupling;                ///< in the pose that was solved last, as are the screws
+    MobilityScrews m_screws;
     SimTK::Vector m_unitForces;
+    int m_lastPlace = kNone;
 };
 
 PathStudy::PathStudy(const ModelDescription& description, const std::function<bool(const std::string&)>& isWanted)
@@ -214,8 +246,15 @@ const std::vector<std::string>& PathStudy::getCoordinateNames() const {
     return m_implementation->getModel().getCoordinateNames();
 }
 
-PoseAnswer PathStudy::solve(const ModelPose& pose) {
-    return m_implementation->solve(pose);
+std::vector<std::string> PathStudy::getCoordinatePaths() const {
+    std::vector<std::string> paths;
+    for (const std::string& name : getCoordinateNames())
+        paths.push_back(m_implementation->getModel().getCoordinateSlot(name).path);
+    return paths;
+}
+
+PoseAnswer PathStudy::solve(const ModelPose& pose, int place) {
+    return m_implementation->solve(pose, place);
 }
 
 CorePath PathStudy::getCorePath(std::size_t path) const {

@@ -35,8 +35,7 @@ std::pair<std::size_t, std::size_t> getAllowedSegments(const PathWrap& wrap, std
 std::vector<SimTK::Vec3> calcPointLocations(const MusclePath& path, const BuiltModel& model,
                                             const SimTK::State& state) {
     std::vector<SimTK::Vec3> points_G;
-    for (const PathPoint& point : path.points)
-        points_G.push_back(model.calcStationLocation(state, point.body, calcPointStation(point, model, state)));
+    for (const PathPoint& point : path.points) points_G.push_back(PlacedPoint(point, model).calcLocation(state));
     return points_G;
 }
 

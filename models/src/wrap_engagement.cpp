@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wrap_engagement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,7 +30,8 @@ struct TurnedString {
 };
 
 bool isOutside(const CylinderShape& cylinder, const Vec3& A, const Vec3& B) {
-    return std::hypot(A.x(), A.y()) > cylinder.radius && std::hypot(B.x(), B.y()) > cylinder.radius;
+    const double least = cylinder.radius * cylinder.radius;
+    return A.head<2>().squaredNorm() > least && B.head<2>().squaredNorm() > least;
 }
 
 /** On the side that is asked for, else the shorter way. */
@@ -73,12 +75,15 @@ SegmentInObject::SegmentInObject(const Surface& surface, const Vec3& begin, cons
 }
 
 bool touchesWithinLength(const CylinderShape& cylinder, const Vec3& side, const Vec3& A, const Vec3& B) {
+    const double end = 0.5 * cylinder.length;
+    if (std::max(std::abs(A.z()), std::abs(B.z())) <= end) return true;  // and so is all between
     if (!isOutside(cylinder, A, B)) return true;
+    if (std::min(A.z(), B.z()) > end || std::max(A.z(), B.z()) < -end) return false;
     const TurnedString string = layString(cylinder, side, A, B);
     // Unrolled, the string is straight: z grows evenly along it.
     const double slope = (B.z() - A.z()) / string.getLength();
     const double first = A.z() + slope * string.straightA, last = B.z() - slope * string.straightB;
-    return std::abs(first) <= 0.5 * cylinder.length || std::abs(last) <= 0.5 * cylinder.length;
+    return std::abs(first) <= end || std::abs(last) <= end;
 }
 
 bool isEngaged(const WrapObject& object, const SegmentInObject& segment) {

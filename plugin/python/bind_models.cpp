@@ -180,14 +180,15 @@ public:
         const py::ssize_t count = q.shape(0);
         if (u) requireShape(*u, "u", {count, numCoordinates});
         if (times) requireShape(*times, "times", {count});
-        const int numWorkers = countWorkers(static_cast<int>(count), numThreads);
+        constexpr int kBlock = models::PathStudy::kPosesPerBlock;
+        const int numWorkers = countWorkers(static_cast<int>(count), numThreads, kBlock);
         {
             const py::gil_scoped_release released;
             while (static_cast<int>(m_workers.size()) < numWorkers) addWorker();
         }
         auto results = std::make_shared<StudyResults>(m_layout, static_cast<int>(count));
         const double *values = q.data(), *speeds = u ? u->data() : nullptr, *at = times ? times->data() : nullptr;
-        runParallel(static_cast<int>(count), numThreads, [&](int worker, int i) {
+        const auto solvePose = [&](int worker, int i) {
             models::ModelPose pose;
             if (at) pose.time = at[i];
             for (py::ssize_t c = 0; c < numCoordinates; ++c) {
@@ -195,8 +196,9 @@ public:
                 pose.values[name] = values[i * numCoordinates + c];
                 if (speeds) pose.speeds[name] = speeds[i * numCoordinates + c];
             }
-            results->upd(i) = m_workers[static_cast<std::size_t>(worker)].solve(pose);
-        });
+            results->upd(i) = m_workers[static_cast<std::size_t>(worker)].solve(pose, i);
+        };
+        runParallel(static_cast<int>(count), numThreads, solvePose, kBlock);
         return results;
     }
 
@@ -381,16 +383,18 @@ void bindModels(py::module_& module) {
         .def_property_readonly(
             "obstacles", [](const Study& study) { return study.getLayout().getObstacleNames(); },
             "path/obstacle, along each path")
-        .def("solve", &Study::solve, arg("q"), py::kw_only(), arg("coordinates") = py::none(), arg("u") = py::none(),
-             arg("times") = py::none(), arg("threads") = 0,
-             "Solves in n poses, each answer a function of its pose alone.\n\n"
-             "q             (n, m): values of m coordinates [rad or m], clipped to no range\n"
-             "coordinates   their names; None: all of the model, in the order of the file. Others stand at their "
-             "defaults\n"
-             "u             (n, m): speeds; None: at rest\n"
-             "times         (n,) [s], for coordinates that follow a motion; None: 0\n"
-             "threads       0: as many as the machine has. Python's lock is released\n\n"
-             "Returns StudyResults. Raises ModelError naming a coordinate that is not there or not finite.");
+        .def(
+            "solve", &Study::solve, arg("q"), py::kw_only(), arg("coordinates") = py::none(), arg("u") = py::none(),
+            arg("times") = py::none(), arg("threads") = 0,
+            "Solves in n poses. Each answer is that of its pose alone; its last digits may depend on the poses before\n"
+            "it in its block of 64, from one to the next of which paths are continued, and on nothing else.\n\n"
+            "q             (n, m): values of m coordinates [rad or m], clipped to no range\n"
+            "coordinates   their names; None: all of the model, in the order of the file. Others stand at their "
+            "defaults\n"
+            "u             (n, m): speeds; None: at rest\n"
+            "times         (n,) [s], for coordinates that follow a motion; None: 0\n"
+            "threads       0: as many as the machine has. Python's lock is released\n\n"
+            "Returns StudyResults. Raises ModelError naming a coordinate that is not there or not finite.");
 
     module.def(
         "simulate", &simulateModel, arg("model"), py::kw_only(),

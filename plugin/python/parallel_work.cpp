@@ -16,8 +16,6 @@
 namespace tautline::python {
 namespace {
 
-/** So many items in a row go to a worker: neighbors have much in common. */
-constexpr int kChunk = 16;
 /** Between two looks for Ctrl-C. */
 constexpr auto kPatience = std::chrono::milliseconds(50);
 
@@ -34,13 +32,13 @@ struct Shared {
 /** Of the work of this thread; null outside of runParallel(). */
 thread_local const std::atomic<bool>* isThreadStopped = nullptr;
 
-void workThrough(Shared& shared, int worker, int count, const std::function<void(int, int)>& work) {
+void workThrough(Shared& shared, int worker, int count, int itemsPerBlock, const std::function<void(int, int)>& work) {
     isThreadStopped = &shared.isStopped;
     try {
         while (!shared.isStopped) {
-            const int first = shared.next.fetch_add(kChunk);
+            const int first = shared.next.fetch_add(itemsPerBlock);
             if (first >= count) break;
-            for (int i = first; i < std::min(first + kChunk, count) && !shared.isStopped; ++i) work(worker, i);
+            for (int i = first; i < std::min(first + itemsPerBlock, count) && !shared.isStopped; ++i) work(worker, i);
         }
     } catch (...) {
         const std::lock_guard<std::mutex> lock(shared.mutex);
@@ -75,22 +73,22 @@ void throwIfStopped() {
     if (isThreadStopped && *isThreadStopped) throw std::runtime_error("stopped");
 }
 
-int countWorkers(int count, int numThreads) {
+int countWorkers(int count, int numThreads, int itemsPerBlock) {
     require(numThreads >= 0, "threads must not be negative, but is ", numThreads);
     const int wanted = numThreads > 0 ? numThreads : static_cast<int>(std::thread::hardware_concurrency());
-    return std::max(1, std::min(wanted, (count + kChunk - 1) / kChunk));
+    return std::max(1, std::min(wanted, (count + itemsPerBlock - 1) / itemsPerBlock));
 }
 
-void runParallel(int count, int numThreads, const std::function<void(int, int)>& work) {
+void runParallel(int count, int numThreads, const std::function<void(int, int)>& work, int itemsPerBlock) {
     Shared shared;
-    const int numWorkers = countWorkers(count, numThreads);
+    const int numWorkers = countWorkers(count, numThreads, itemsPerBlock);
     bool isInterrupted = false;
     {
         const pybind11::gil_scoped_release released;
         shared.numWorking = numWorkers;
         std::vector<std::thread> threads;
         for (int worker = 0; worker < numWorkers; ++worker)
-            threads.emplace_back([&, worker] { workThrough(shared, worker, count, work); });
+            threads.emplace_back([&, worker] { workThrough(shared, worker, count, itemsPerBlock, work); });
         isInterrupted = waitForAll(shared);
         for (std::thread& thread : threads) thread.join();
     }

@@ -2,6 +2,7 @@
 #include "check_command.h"
 
 #include "check_report.h"
+#include "command_options.h"
 #include "progress_bar.h"
 
 namespace tautline {
@@ -27,11 +28,7 @@ CheckedModel readModel(const std::filesystem::path& file, std::vector<std::strin
 }  // namespace
 
 void CheckCommand::declare(CLI::App& app) {
-    app.option_defaults()->take_last();  // so that what a script gives can be overridden
-    app.add_option("MODEL", modelFile, "model file (.osim)")->required();
-    app.add_option("--ignore", ignored, "name or type of an element to leave out though it is not known; repeatable")
-        ->take_all()
-        ->allow_extra_args(false);
+    addModelOptions(app, modelFile, ignored);
     app.add_flag("--json", printsJson, "print all of it as JSON");
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "command_options.h"
 #include "model_report.h"
 #include "motion_file.h"
 #include "name_pattern.h"
@@ -44,20 +45,11 @@ void printMotion(const std::filesystem::path& file, const Motion& motion, const 
 }  // namespace
 
 void SolveCommand::declare(CLI::App& app) {
-    app.option_defaults()->take_last();  // so that what a script gives can be overridden
-    app.add_option("MODEL", modelFile, "model file (.osim)")->required();
+    addModelOptions(app, modelFile, ignored, "name or type of an element, or pattern of columns,");
     app.add_option("--motion", motionFile, "motion or states file (.mot, .sto): solve in each of its frames");
-    app.add_option("--pose", pose,
-                   "value of a coordinate, NAME=VALUE in rad or m (30deg: degrees), over the motion's; repeatable")
-        ->take_all()
-        ->allow_extra_args(false);
-    app.add_option("--muscles", patterns, "only paths whose names match, such as 'rect_fem*'; repeatable")
-        ->take_all()
-        ->allow_extra_args(false);
-    app.add_option("--ignore", ignored,
-                   "name or type of an element, or pattern of columns, to leave out though it is not known; repeatable")
-        ->take_all()
-        ->allow_extra_args(false);
+    addRepeatable(app, "--pose", pose,
+                  "value of a coordinate, NAME=VALUE in rad or m (30deg: degrees), over the motion's");
+    addRepeatable(app, "--muscles", patterns, "only paths whose names match, such as 'rect_fem*'");
     app.add_option("--out", outFolder, "folder of the results, made if missing")->capture_default_str();
     app.add_flag("--allow-degraded", allowsDegraded, "exit with 0 even if some paths are no verified shortest ones");
     page.declare(app, "the poses: model, paths, curves, statuses");
@@ -94,7 +86,7 @@ int SolveCommand::run(std::ostream& out, bool isTerminal) const {
     const auto begin = std::chrono::steady_clock::now();
     for (const models::ModelPose& frame : motion.poses) {
         times.push_back(frame.time);
-        answers.push_back(study.solve(frame));
+        answers.push_back(study.solve(frame, static_cast<int>(answers.size())));
         if (watcher) watcher->watch(times.back(), answers.back());
         bar.show(static_cast<double>(answers.size()) / static_cast<double>(motion.poses.size()));
     }
@@ -104,7 +96,7 @@ int SolveCommand::run(std::ostream& out, bool isTerminal) const {
     std::filesystem::create_directories(outFolder);
     writeStorage(makePathTable(study, times, answers), outFolder / "paths.sto");
     writeStorage(makeMomentArmTable(study, times, answers), outFolder / "moment_arms.sto");
-    writeStorage(makeCoordinateTable(description, study, times, answers), outFolder / "coordinates.sto");
+    writeStorage(makeCoordinateTable(study, times, answers), outFolder / "coordinates.sto");
     writeWhole(makeStatusText(study, times, answers), outFolder / "statuses.csv");
     printStudy(study, times, answers, out);
     out << answers.size() << (answers.size() == 1 ? " pose" : " frames") << " of " << study.getPaths().size()

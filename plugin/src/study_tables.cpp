@@ -30,13 +30,6 @@ std::string quote(const std::string& text) {
 
 }  // namespace
 
-std::string makeCoordinatePath(const models::ModelDescription& description, const std::string& coordinate) {
-    for (const models::Joint& joint : description.joints)
-        for (const models::Coordinate& candidate : joint.coordinates)
-            if (candidate.name == coordinate) return "/jointset/" + joint.name + "/" + coordinate;
-    return coordinate;
-}
-
 StorageTable makePathTable(const PathStudy& study, const std::vector<double>& times,
                            const std::vector<PoseAnswer>& answers) {
     StorageTable table;
@@ -77,14 +70,13 @@ StorageTable makeMomentArmTable(const PathStudy& study, const std::vector<double
     return table;
 }
 
-StorageTable makeCoordinateTable(const models::ModelDescription& description, const PathStudy& study,
-                                 const std::vector<double>& times, const std::vector<PoseAnswer>& answers) {
+StorageTable makeCoordinateTable(const PathStudy& study, const std::vector<double>& times,
+                                 const std::vector<PoseAnswer>& answers) {
     StorageTable table;
     table.name = "coordinates";
     table.labels = {"time"};
-    for (const std::string& name : study.getCoordinateNames())
-        for (const char* quantity : {"/value", "/speed"})
-            table.labels.push_back(makeCoordinatePath(description, name) + quantity);
+    for (const std::string& path : study.getCoordinatePaths())
+        for (const char* quantity : {"/value", "/speed"}) table.labels.push_back(path + quantity);
     addRows(times, answers, table, [](std::vector<double>& row, const PoseAnswer& answer) {
         for (std::size_t i = 0; i < answer.values.size(); ++i)
             row.insert(row.end(), {answer.values[i], answer.speeds[i]});

@@ -19,15 +19,12 @@ StorageTable makeMomentArmTable(const models::PathStudy& study, const std::vecto
                                 const std::vector<models::PoseAnswer>& answers);
 
 /** Values and speeds of all coordinates as OpenSim's states files have them. */
-StorageTable makeCoordinateTable(const models::ModelDescription& description, const models::PathStudy& study,
-                                 const std::vector<double>& times, const std::vector<models::PoseAnswer>& answers);
+StorageTable makeCoordinateTable(const models::PathStudy& study, const std::vector<double>& times,
+                                 const std::vector<models::PoseAnswer>& answers);
 
 /** time,path,status,explanation: a row for each path and frame with something to explain; frames whose constraints
 are broken have one without a path. */
 std::string makeStatusText(const models::PathStudy& study, const std::vector<double>& times,
                            const std::vector<models::PoseAnswer>& answers);
-
-/** "/jointset/<joint>/<coordinate>" */
-std::string makeCoordinatePath(const models::ModelDescription& description, const std::string& coordinate);
 
 }  // namespace tautline

@@ -467,6 +467,10 @@ void Cable::calcUnitMobilityForces(const State& state, SimTK::Vector& unitForces
     get().addMobilityForces(state, 1, unitForces, "Cable::calcUnitMobilityForces()");
 }
 
+void Cable::calcUnitMobilityForces(const State& state, const MobilityScrews& screws, SimTK::Vector& unitForces) const {
+    get().calcUnitMobilityForces(state, screws, unitForces);
+}
+
 Real Cable::calcMomentArm(const State& state, SimTK::MobilizedBodyIndex body, SimTK::MobilizerUIndex u) const {
     SimTK::Vector unitForces;
     calcUnitMobilityForces(state, unitForces);

@@ -9,9 +9,10 @@ void CableCounters::countSolve(const PathSolution& path, std::chrono::nanosecond
     ++m_solves;
     if (path.wasCold) ++m_coldSolves;
     if (path.status == PathStatus::NotConverged) ++m_failures;
-    m_iterations += path.iterations;
-    m_shots += path.shots;
-    m_nanoseconds += elapsed.count();
+    // Of a straight path there is nothing more to count, and to add nothing takes its time.
+    if (path.iterations > 0) m_iterations += path.iterations;
+    if (path.shots > 0) m_shots += path.shots;
+    if (elapsed.count() > 0) m_nanoseconds += elapsed.count();
 }
 
 void CableCounters::countStep(bool isDegraded, double pathError) {

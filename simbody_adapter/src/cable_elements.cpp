@@ -107,14 +107,18 @@ const SimTK::MobilizedBody& CableElements::getBody(const CableElement& element) 
     return m_cables.getMatter().getMobilizedBody(element.body);
 }
 
-void CableElements::calcPose(const State& state, PathPose& pose) const {
+void CableElements::calcPose(const State& state, const std::vector<SimTK::Transform>& X_GB, PathPose& pose) const {
     pose.X_GE.resize(m_elements.size());
     pose.isActive.assign(m_elements.size(), 1);
     for (std::size_t e = 0; e < m_elements.size(); ++e) {
         const CableElement& element = m_elements[e];
-        const SimTK::Transform& X_GB = getBody(element).getBodyTransform(state);
-        pose.X_GE[e] =
-            element.moving ? Pose(toEigen(X_GB * element.moving->calcStation(state))) : toPose(X_GB * element.X_BE);
+        const SimTK::Transform& X_GBody = X_GB[element.body];
+        if (element.surface)
+            pose.X_GE[e] = toPose(X_GBody * element.X_BE);
+        else if (element.moving)
+            pose.X_GE[e] = Pose(toEigen(X_GBody * element.moving->calcStation(state)));
+        else  // the frame of a point is not turned on its body
+            pose.X_GE[e] = {toEigen(X_GBody.R().asMat33()), toEigen(X_GBody * element.X_BE.p())};
         if (element.isActive) pose.isActive[e] = element.isActive(state);
     }
 }
@@ -162,6 +166,18 @@ void CableElements::addBodyForces(const State& state, const PathPose& pose, cons
                                   Real tension, SimTK::Vector_<SpatialVec>& bodyForces) const {
     for (int e = 0; e < size(); ++e)
         bodyForces[m_elements[e].body] += tension * calcForceAboutBodyOrigin(state, pose, F_GE, e);
+}
+
+void CableElements::addForcesAtGround(const PathPose& pose, const std::vector<SpatialForce>& F_GE,
+                                      std::vector<BodyForceAtGround>& forces) const {
+    for (std::size_t e = 0; e < m_elements.size(); ++e) {
+        const Vec3 moment_G = F_GE[e].moment + pose.X_GE[e].p.cross(F_GE[e].force);
+        const SpatialVec force(toSimTK(moment_G), toSimTK(F_GE[e].force));
+        if (!forces.empty() && forces.back().body == m_elements[e].body)
+            forces.back().force += force;
+        else
+            forces.push_back({m_elements[e].body, force});
+    }
 }
 
 void CableElements::addMobilityForces(const State& state, const std::vector<SpatialForce>& F_GE, Real tension,

@@ -11,6 +11,7 @@
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/paths/path_problem.h"
 #include "tautline/simbody/cable.h"
+#include "tautline/simbody/mobility_screws.h"
 
 namespace tautline {
 
@@ -55,8 +56,8 @@ public:
 
     PathProblem makeProblem() const;
 
-    /** Of all elements in ground. Stage: Position of the bodies. */
-    void calcPose(const SimTK::State& state, PathPose& pose) const;
+    /** Of all elements in ground. Stage: Position of the bodies. @param X_GB   of all bodies */
+    void calcPose(const SimTK::State& state, const std::vector<SimTK::Transform>& X_GB, PathPose& pose) const;
     /** Of all elements in ground, at their origins. Stage: Velocity of the bodies. */
     void calcVelocities(const SimTK::State& state, std::vector<SpatialVelocity>& V_GE) const;
     /** At a pose of earlier, without the motion of moving points on their bodies.
@@ -74,6 +75,10 @@ public:
     @param[in,out] bodyForces   by body, about the bodies' origins, in ground [N m, N] */
     void addBodyForces(const SimTK::State& state, const PathPose& pose, const std::vector<SpatialForce>& F_GE,
                        SimTK::Real tension, SimTK::Vector_<SimTK::SpatialVec>& bodyForces) const;
+    /** The same about ground's origin; ground is a body, too, so that they sum to zero. @param[out] forces   appended,
+    neighbors on one body together */
+    void addForcesAtGround(const PathPose& pose, const std::vector<SpatialForce>& F_GE,
+                           std::vector<BodyForceAtGround>& forces) const;
     /** Of the points that coordinates move.
     @param F_GE, tension            as above
     @param[in,out] mobilityForces   by mobility [N or N m] */

@@ -131,6 +131,7 @@ CableMode CableImpl::getDefaultMode() const {
 
 void CableImpl::realizeTopology(CableWorkspaces& workspaces) {
     m_problem = m_elements.makeProblem();
+    m_numObstacles = m_elements.countObstacles();
     m_workspaces = &workspaces;
 }
 
@@ -148,27 +149,26 @@ bool CableImpl::hasEvents(const State& state) const {
     return !mode.isDisabled && mode.contacts == ContactMode::Events;
 }
 
-void CableImpl::realizePath(const State& state) const {
-    const CableStates& states = m_cables.getStates();
-    const CableMode& mode = states.getMode(state, m_index);
+void CableImpl::realizePath(const State& state, const CableStates::All& all, const std::vector<SimTK::Transform>& X_GB,
+                            CableWorkspace& workspace) const {
+    const CableMode& mode = all.modes[m_index];
     if (mode.isDisabled) return;
     const ContactRule rule = mode.keepsContacts                      ? ContactRule::Kept
                              : mode.contacts == ContactMode::Tracked ? ContactRule::Tracked
                                                                      : ContactRule::Free;
-    const SharedPath& start = states.getStart(state, m_index);
-    SharedPath& path = states.updPath(state, m_index);
-    const CableWorkspaces::Loan workspace = m_workspaces->lend();
-    m_elements.calcPose(state, workspace->pose);
-    if (isKnown(state, path.get(), start.get(), rule, *workspace)) return;
-    if (isKnown(state, start.get(), start.get(), rule, *workspace)) {
+    const SharedPath& start = all.starts[m_index];
+    SharedPath& path = all.paths[m_index];
+    m_elements.calcPose(state, X_GB, workspace.pose);
+    if (isKnown(state, path.get(), start.get(), rule, workspace)) return;
+    if (isKnown(state, start.get(), start.get(), rule, workspace)) {
         path = start;
         return;
     }
     CablePath& found = path.updScratch();
-    std::swap(found.pose, workspace->pose);
+    std::swap(found.pose, workspace.pose);
     found.time = state.getTime();
     found.rule = rule;
-    solve(state, start.get(), *workspace, found);
+    solve(state, start.get(), workspace, found);
 }
 
 /** Whether a path is the answer of the workspace's pose, as the start of a solve or as what was found from it. A body
@@ -183,7 +183,19 @@ bool CableImpl::isKnown(const State& state, const CablePath& path, const CablePa
 
 void CableImpl::solve(const State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const {
     using Clock = std::chrono::steady_clock;
-    const Clock::time_point begin = Clock::now();
+    // A straight path costs less than a look at the clock.
+    const bool isTimed = m_numObstacles > 0;
+    const Clock::time_point begin = isTimed ? Clock::now() : Clock::time_point();
+    findPath(state, start, workspace, path);
+    if (!path.solution.segments.empty()) m_counters.countSolve(path.solution, isTimed ? Clock::now() - begin : Clock::duration());
+    calcUnitForces(path.solution, path.pose, path.forces);
+    path.serial = m_cables.makeSerial();
+    path.startSerial = start.serial;
+    path.wasSettled = false;
+    calcWitnesses(start, path);
+}
+
+void CableImpl::findPath(const State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const {
     if (path.rule != ContactRule::Free) calcStartMotion(state, start, workspace.startMotion);
     switch (path.rule) {
         case ContactRule::Kept:
@@ -196,12 +208,6 @@ void CableImpl::solve(const State& state, const CablePath& start, CableWorkspace
             workspace.tracker.solveFrom(m_problem, start, path);
             break;
     }
-    if (path.pose.isFinite()) m_counters.countSolve(path.solution, Clock::now() - begin);
-    calcUnitForces(path.solution, path.pose, path.forces);
-    path.serial = m_cables.makeSerial();
-    path.startSerial = start.serial;
-    path.wasSettled = false;
-    calcWitnesses(start, path);
 }
 
 void CableImpl::calcWitnesses(const CablePath& start, CablePath& path) const {
@@ -341,8 +347,8 @@ Real CableImpl::calcSplitWitness(const State& state, CableElementIndex obstacle)
 }
 
 const CablePath* CableImpl::findKeptPath(const State& state) const {
+    if (!keepsContacts(state)) return nullptr;  // first, since studies without events ask all the same
     m_cables.ensureStage(state, Stage::Position, "cable event handler");
-    if (!keepsContacts(state)) return nullptr;
     m_cables.realizePaths(state);
     return &getCablePath(state);
 }
@@ -378,6 +384,21 @@ void CableImpl::addBodyForces(const State& state, Real tension, SimTK::Vector_<S
 void CableImpl::addMobilityForces(const State& state, Real tension, SimTK::Vector& mobilityForces,
                                   const char* method) const {
     m_elements.addMobilityForces(state, getElementForces(state, method), tension, mobilityForces);
+}
+
+void CableImpl::calcUnitMobilityForces(const State& state, const MobilityScrews& screws,
+                                       SimTK::Vector& unitForces) const {
+    const char* const method = "Cable::calcUnitMobilityForces()";
+    const std::vector<SpatialForce>& F_GE = getElementForces(state, method);
+    require(screws.getNumMobilities() == state.getNU(), "cable '", m_name, "': the screws are those of ",
+            screws.getNumMobilities(), " mobilities, but the State has ", state.getNU());
+    unitForces.resize(state.getNU());
+    unitForces = 0;
+    const CableWorkspaces::Loan workspace = m_workspaces->lend();
+    workspace->forces.clear();
+    m_elements.addForcesAtGround(getPose(state), F_GE, workspace->forces);
+    screws.addBalancedForces(workspace->forces, unitForces);
+    m_elements.addMobilityForces(state, F_GE, 1, unitForces);
 }
 
 TrackedPath CableImpl::calcSettledPath(const State& state) const {

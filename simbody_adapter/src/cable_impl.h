@@ -40,8 +40,10 @@ public:
     const CableElements& getElements() const { return m_elements; }
 
     void realizeTopology(CableWorkspaces& workspaces);
-    /** The path of this pose, solved only if it is not known already. */
-    void realizePath(const SimTK::State& state) const;
+    CableWorkspaces& updWorkspaces() const { return *m_workspaces; }
+    /** The path of this pose, solved only if it is not known already. @param X_GB   of all bodies */
+    void realizePath(const SimTK::State& state, const CableStates::All& all, const std::vector<SimTK::Transform>& X_GB,
+                     CableWorkspace& workspace) const;
 
     bool isDisabled(const SimTK::State& state) const { return getMode(state).isDisabled; }
     void setDisabled(SimTK::State& state, bool isDisabled) const;
@@ -79,6 +81,9 @@ public:
                        const char* method) const;
     void addMobilityForces(const SimTK::State& state, SimTK::Real tension, SimTK::Vector& mobilityForces,
                            const char* method) const;
+    /** @param screws   of this State's pose */
+    void calcUnitMobilityForces(const SimTK::State& state, const MobilityScrews& screws,
+                                SimTK::Vector& unitForces) const;
 
     /** The path of this state with all contacts settled, as a study starts from it. */
     TrackedPath calcSettledPath(const SimTK::State& state) const;
@@ -103,6 +108,7 @@ private:
     bool isKnown(const SimTK::State& state, const CablePath& path, const CablePath& start, ContactRule rule,
                  CableWorkspace& workspace) const;
     void solve(const SimTK::State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
+    void findPath(const SimTK::State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
     void calcWitnesses(const CablePath& start, CablePath& path) const;
     void addHandlers(CableElementIndex index);
     SimTK::Real calcLengthAccelerationBias(const SimTK::State& state, const CablePath& path) const;
@@ -125,6 +131,7 @@ private:
     std::function<void(const ContactEvent&)> m_listener;
 
     PathProblem m_problem;                    ///< built at Topology
+    int m_numObstacles = 0;                   ///< of it
     CableWorkspaces* m_workspaces = nullptr;  ///< at Topology, from the subsystem
     mutable CableCounters m_counters;
 };

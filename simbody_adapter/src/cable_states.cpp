@@ -78,16 +78,19 @@ CableMode& CableStates::updMode(State& state, int cable) const {
     return updAs<Modes>(m_cables->updDiscreteVariable(state, m_modes))[cable];
 }
 
+CableStates::All CableStates::updAll(const State& state) const {
+    requireTopology(state);
+    return {as<Modes>(m_cables->getDiscreteVariable(state, m_modes)),
+            as<Paths>(m_cables->getDiscreteVariable(state, m_paths)),
+            updAs<Paths>(m_cables->updDiscreteVarUpdateValue(state, m_paths))};
+}
+
 const SharedPath& CableStates::getStart(const State& state, int cable) const {
     return as<Paths>(m_cables->getDiscreteVariable(state, m_paths))[cable];
 }
 
 SharedPath& CableStates::updStart(State& state, int cable) const {
     return updAs<Paths>(m_cables->updDiscreteVariable(state, m_paths))[cable];
-}
-
-const std::vector<SharedPath>& CableStates::getPaths(const State& state) const {
-    return as<Paths>(m_cables->getDiscreteVarUpdateValue(state, m_paths));
 }
 
 std::vector<SharedPath>& CableStates::updStarts(State& state) const {

@@ -70,11 +70,17 @@ public:
     const CableMode& getMode(const SimTK::State& state, int cable) const;
     CableMode& updMode(SimTK::State& state, int cable) const;
 
+    /** Of all cables, for a realization of all paths: what is looked up in a State costs as much as a straight path. */
+    struct All {
+        const std::vector<CableMode>& modes;
+        const std::vector<SharedPath>& starts;
+        std::vector<SharedPath>& paths;
+    };
+    All updAll(const SimTK::State& state) const;
+
     const SharedPath& getStart(const SimTK::State& state, int cable) const;
     SharedPath& updStart(SimTK::State& state, int cable) const;
 
-    /** All of them: where one is changed, those of other cables may be invalid already. */
-    const std::vector<SharedPath>& getPaths(const SimTK::State& state) const;
     std::vector<SharedPath>& updStarts(SimTK::State& state) const;
 
     bool arePathsRealized(const SimTK::State& state) const;

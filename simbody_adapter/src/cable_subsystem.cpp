@@ -2,6 +2,7 @@
 #include "tautline/simbody/cable_subsystem.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "cable_subsystem_impl.h"
 #include "contact_event_handler.h"
@@ -56,6 +57,10 @@ void CableSubsystem::acceptPaths(State& state) const {
     getImpl().acceptPaths(state);
 }
 
+void CableSubsystem::forgetPaths(State& state) const {
+    getImpl().forgetPaths(state);
+}
+
 void CableSubsystem::setShowDecorations(bool shows) {
     updImpl().setShowDecorations(shows);
 }
@@ -93,8 +98,9 @@ const SimTK::MultibodySystem& CableSubsystemImpl::getMultibodySystem() const {
     return SimTK::MultibodySystem::downcast(getSystem());
 }
 
+/** Simbody finds it by two dynamic casts at each call, which cost more than a straight path. */
 const SimTK::SimbodyMatterSubsystem& CableSubsystemImpl::getMatter() const {
-    return getMultibodySystem().getMatterSubsystem();
+    return m_matter ? *m_matter : getMultibodySystem().getMatterSubsystem();
 }
 
 CableImpl& CableSubsystemImpl::addCable(std::string name) {
@@ -142,6 +148,7 @@ CableSubsystemImpl* CableSubsystemImpl::cloneImpl() const {
 /** Cables with the same options share their workspaces. */
 int CableSubsystemImpl::realizeSubsystemTopologyImpl(State& state) const {
     auto& self = const_cast<CableSubsystemImpl&>(*this);  // the topology is what Simbody caches in the System itself
+    self.m_matter = &getMultibodySystem().getMatterSubsystem();
     self.m_workspaces.clear();
     std::vector<CableMode> modes;
     for (const std::unique_ptr<CableImpl>& cable : m_impls) {
@@ -170,7 +177,19 @@ int CableSubsystemImpl::realizeSubsystemVelocityImpl(const State& state) const {
 
 void CableSubsystemImpl::realizePaths(const State& state) const {
     if (m_states.arePathsRealized(state)) return;
-    for (const std::unique_ptr<CableImpl>& cable : m_impls) cable->realizePath(state);
+    const CableStates::All all = m_states.updAll(state);
+    const SimTK::SimbodyMatterSubsystem& matter = getMatter();
+    std::vector<SimTK::Transform> X_GB;
+    X_GB.reserve(static_cast<std::size_t>(matter.getNumBodies()));
+    for (SimTK::MobilizedBodyIndex b(0); b < matter.getNumBodies(); ++b)
+        X_GB.push_back(matter.getMobilizedBody(b).getBodyTransform(state));
+    std::optional<CableWorkspaces::Loan> workspace;
+    const CableWorkspaces* lender = nullptr;
+    for (const std::unique_ptr<CableImpl>& cable : m_impls) {
+        if (lender != &cable->updWorkspaces()) workspace.emplace(cable->updWorkspaces().lend());
+        lender = &cable->updWorkspaces();
+        cable->realizePath(state, all, X_GB, **workspace);
+    }
     m_states.markPathsRealized(state);
 }
 
@@ -188,23 +207,28 @@ void CableSubsystemImpl::realizeMotions(const State& state) const {
 void CableSubsystemImpl::acceptPaths(State& state) const {
     ensureStage(state, Stage::Position, "CableSubsystem::acceptPaths()");
     realizePaths(state);
-    startFrom(m_states.getPaths(state), state, [](const CableImpl&, const CablePath&) { return true; });
+    startFromPaths(state, [](const CableImpl&, const CablePath&) { return true; });
+}
+
+void CableSubsystemImpl::forgetPaths(State& state) const {
+    for (SharedPath& start : m_states.updStarts(state)) start = SharedPath();
 }
 
 void CableSubsystemImpl::acceptHoldingPaths(State& state) const {
     realizePaths(state);
     const BodyMotions motions = m_states.getMotions(state);
-    startFrom(m_states.getPaths(state), state,
-              [](const CableImpl& cable, const CablePath& path) { return cable.isHolding(path); });
+    startFromPaths(state, [](const CableImpl& cable, const CablePath& path) { return cable.isHolding(path); });
     m_states.updStartMotions(state) = motions;
 }
 
-/** @param paths   by value: they become invalid with the first that is taken over */
+/** By exchange, as an integrator does, so that the next solve overwrites what the last began with. */
 template <class Predicate>
-void CableSubsystemImpl::startFrom(std::vector<SharedPath> paths, State& state, Predicate isTaken) const {
+void CableSubsystemImpl::startFromPaths(State& state, Predicate isTaken) const {
     std::vector<SharedPath>& starts = m_states.updStarts(state);
-    for (std::size_t i = 0; i < m_impls.size(); ++i)
-        if (!m_impls[i]->isDisabled(state) && isTaken(*m_impls[i], paths[i].get())) starts[i] = paths[i];
+    for (std::size_t i = 0; i < m_impls.size(); ++i) {
+        SharedPath& path = m_states.updPath(state, static_cast<int>(i));
+        if (!m_impls[i]->isDisabled(state) && isTaken(*m_impls[i], path.get())) std::swap(starts[i], path);
+    }
 }
 
 bool CableSubsystemImpl::needsSettling(const State& state) const {

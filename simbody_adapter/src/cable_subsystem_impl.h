@@ -26,6 +26,7 @@ public:
     void setShowDecorations(bool shows) { m_showsDecorations = shows; }
     bool getShowDecorations() const { return m_showsDecorations; }
     void acceptPaths(SimTK::State& state) const;
+    void forgetPaths(SimTK::State& state) const;
     /** Makes the paths and motions of this State [Velocity] the start of later solves, but for the paths that do not
     hold there. */
     void acceptHoldingPaths(SimTK::State& state) const;
@@ -73,8 +74,9 @@ protected:
 
 private:
     template <class Predicate>
-    void startFrom(std::vector<SharedPath> paths, SimTK::State& state, Predicate isTaken) const;
+    void startFromPaths(SimTK::State& state, Predicate isTaken) const;
 
+    const SimTK::SimbodyMatterSubsystem* m_matter = nullptr;  ///< from Topology on
     std::vector<std::unique_ptr<CableImpl>> m_impls;
     std::vector<std::unique_ptr<CableWorkspaces>> m_workspaces;  ///< of cables with the same options
     ContactMode m_defaultContactMode = ContactMode::Events;

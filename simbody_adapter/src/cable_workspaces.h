@@ -7,6 +7,7 @@
 
 #include "tautline/paths/path_sensitivity.h"
 #include "tautline/paths/path_tracker.h"
+#include "tautline/simbody/mobility_screws.h"
 
 namespace tautline {
 
@@ -18,6 +19,7 @@ struct CableWorkspace {
     PathMotion startMotion;  ///< of the elements where a solve starts
     PathPose pose;
     std::vector<SpatialVelocity> V_GE;
+    std::vector<BodyForceAtGround> forces;
     PathSensitivity sensitivity;
     PathVariation variation;
 };
@@ -35,7 +37,10 @@ public:
         Loan(CableWorkspaces& owner, std::unique_ptr<CableWorkspace> workspace)
             : m_owner(owner), m_workspace(std::move(workspace)) {}
         Loan(const Loan&) = delete;
-        ~Loan() { m_owner.takeBack(std::move(m_workspace)); }
+        Loan(Loan&&) = default;
+        ~Loan() {
+            if (m_workspace) m_owner.takeBack(std::move(m_workspace));
+        }
 
         CableWorkspace* operator->() const { return m_workspace.get(); }
         CableWorkspace& operator*() const { return *m_workspace; }

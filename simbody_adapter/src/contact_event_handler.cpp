@@ -75,9 +75,11 @@ ConditionEventHandler::ConditionEventHandler(const CableImpl& cable, CableElemen
     getTriggerInfo().setTriggerOnRisingSignTransition(true);  // both ways
 }
 
-/** A jump from -1 to 1: the event finder halves its interval. */
+/** A jump from -1 to 1: the event finder halves its interval. The pose of the path knows what the condition says. */
 SimTK::Real ConditionEventHandler::getValue(const SimTK::State& state) const {
-    return m_cable.isDisabled(state) || m_cable.getElements().get(m_element).isActive(state) ? 1 : -1;
+    if (m_cable.isDisabled(state)) return 1;
+    m_cable.getPath(state, "cable event handler");
+    return m_cable.getPose(state).hasElement(m_element) ? 1 : -1;
 }
 
 void ConditionEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {

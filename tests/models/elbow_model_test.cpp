@@ -16,8 +16,7 @@ std::filesystem::path findModel() {
 
 /** The point in the frame of the wrap object. */
 SimTK::Vec3 locateInWrap(const PathPoint& point, const WrapObject& wrap, const BuiltSystem& arm) {
-    const SimTK::Vec3 point_G =
-        arm.model.calcStationLocation(arm.state, point.body, calcPointStation(point, arm.model, arm.state));
+    const SimTK::Vec3 point_G = PlacedPoint(point, arm.model).calcLocation(arm.state);
     const SimTK::Transform X_GW = arm.model.getBody(wrap.body).getBodyTransform(arm.state) * toTransform(wrap.X_BW);
     return ~X_GW * point_G;
 }

@@ -229,11 +229,11 @@ TEST(PathPoints, MovingPointsStopAtTheRangeOfTheirCoordinate) {
     const std::string plain = "<Coordinate name=\"q\"/>";
     text.replace(text.find(plain), plain.size(), "<Coordinate name=\"q\"><range>0 1</range></Coordinate>");
     BuiltSystem built(readNew(text));
-    const PathPoint& point = built.description.muscles[0].path.points[1];
+    const PlacedPoint point(built.description.muscles[0].path.points[1], built.model);
     const double expected[][2] = {{0.5, 2.0}, {-3.0, 1.0}, {4.0, 3.0}};
     for (const auto& [q, x] : expected) {
         built.set("q", q);
-        EXPECT_EQ(calcPointStation(point, built.model, built.state), SimTK::Vec3(x, 0, 0));
+        EXPECT_EQ(point.calcStation(built.state), SimTK::Vec3(x, 0, 0));
     }
 }
 

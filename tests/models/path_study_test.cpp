@@ -6,6 +6,7 @@
 #include "model_test_support.h"
 #include "support/seeded_random.h"
 #include "support/shared_data.h"
+#include "tautline/error.h"
 #include "tautline/models/coordinate_coupling.h"
 #include "tautline/models/crossed_coordinates.h"
 #include "tautline/models/model_system.h"
@@ -98,33 +99,94 @@ TEST(PathStudy, AnswersDependOnThePoseAlone) {
     }
 }
 
+/** The models of the reference data, with coordinates to walk along. */
+struct WalkedModel {
+    const char* name;
+    std::vector<const char*> coordinates;
+};
+
+const std::vector<const char*> kLegs = {"hip_flexion_r", "hip_adduction_r", "knee_angle_r",
+                                        "ankle_angle_r", "hip_flexion_l",   "lumbar_bending"};
+const std::vector<const char*> kArm = {"r_shoulder_elev", "r_elbow_flex"};
+const WalkedModel kWalkedModels[] = {
+    {"arm26", kArm},
+    {"arm26_v20303", kArm},
+    {"gait2392_thelen2003muscle", kLegs},
+    {"walk_gait1018_subject01", kLegs},
+    {"Rajagopal2016", kLegs},
+    {"RajagopalLaiUhlrich2023", kLegs},
+    {"subject_walk_scaled", kLegs},
+    {"ThoracoscapularShoulderModel", {"shoulder_elv", "plane_elv", "scapula_abduction", "clav_prot"}},
+    {"Scholz2015GeometryPathExample", {}},  // has no coordinates
+};
+
+class DataWalkedModels : public ::testing::TestWithParam<WalkedModel> {};
+
 /** A walk through poses is as many cold solves, also where paths wrap over many objects. (2026-11-27: of paths that
 were continued freely, ContactMode::Free, one came to be 13 mm longer.) */
-TEST(DataPathStudy, WalkedAnswersAreThoseOfColdSolves) {
+TEST_P(DataWalkedModels, AnswersAreThoseOfColdSolves) {
     TAUTLINE_SKIP_WITHOUT_SHARED(shared);
-    for (const char* name : {"ThoracoscapularShoulderModel", "Rajagopal2016", "arm26"}) {
-        SCOPED_TRACE(name);
-        const ModelDescription model =
-            readOsimFile(shared / "data" / "opensim" / "models" / (std::string(name) + ".osim"), {{}, true});
-        PathStudy walked(model);
-        constexpr int kNumFrames = 120, kColdEvery = 15;
-        for (int frame = 0; frame < kNumFrames; ++frame) {
-            ModelPose pose;
-            int k = 0;
-            for (const char* coordinate :
-                 {"shoulder_elv", "plane_elv", "hip_flexion_r", "knee_angle_r", "r_shoulder_elev", "r_elbow_flex"})
-                if (findCoordinate(model, coordinate))
-                    pose.values[coordinate] = 0.5 + 0.5 * std::sin(0.05 * frame + 1.3 * k++);
-            const PoseAnswer warm = walked.solve(pose);
-            if (frame % kColdEvery != 0) continue;
-            PathStudy fresh(model);
-            const PoseAnswer cold = fresh.solve(pose);
-            for (std::size_t p = 0; p < cold.paths.size(); ++p) {
-                EXPECT_EQ(warm.paths[p].status, cold.paths[p].status) << cold.paths[p].explanation;
-                EXPECT_NEAR(warm.paths[p].length, cold.paths[p].length, 1e-12) << walked.getPaths()[p].name;
-            }
+    const ModelDescription model =
+        readOsimFile(shared / "data" / "opensim" / "models" / (std::string(GetParam().name) + ".osim"), {{}, true});
+    std::vector<std::string> coordinates;
+    for (const char* name : GetParam().coordinates)
+        if (findCoordinate(model, name)) coordinates.push_back(name);
+    ASSERT_EQ(coordinates.empty(), GetParam().coordinates.empty());
+    PathStudy walked(model), alone(model);
+    constexpr int kNumFrames = 2 * PathStudy::kPosesPerBlock, kColdEvery = 7;
+    for (int frame = 0; frame < kNumFrames; ++frame) {
+        ModelPose pose;
+        for (std::size_t k = 0; k < coordinates.size(); ++k)
+            pose.values[coordinates[k]] = 0.5 + 0.5 * std::sin(0.05 * frame + 1.3 * static_cast<double>(k));
+        const PoseAnswer warm = walked.solve(pose, frame);
+        if (frame % kColdEvery != 0) continue;
+        const PoseAnswer cold = alone.solve(pose);
+        for (std::size_t p = 0; p < cold.paths.size(); ++p) {
+            EXPECT_EQ(warm.paths[p].status, cold.paths[p].status) << cold.paths[p].explanation;
+            EXPECT_NEAR(warm.paths[p].length, cold.paths[p].length, 1e-12) << walked.getPaths()[p].name;
         }
     }
+}
+
+INSTANTIATE_TEST_SUITE_P(, DataWalkedModels, ::testing::ValuesIn(kWalkedModels),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+/** Whoever solves a block, and whatever he solved before: to the last digit. */
+TEST(PathStudy, AnswersDependOnTheirBlockAlone) {
+    constexpr int kBlock = PathStudy::kPosesPerBlock;
+    const ModelDescription elbow = readElbow();
+    const auto makePose = [](int i) {
+        ModelPose pose;
+        pose.values["elbow_flexion"] = 1 + std::sin(0.03 * i);
+        pose.values["shoulder_flexion"] = 0.5 * std::cos(0.02 * i);
+        return pose;
+    };
+    PathStudy all(elbow), some(elbow);
+    std::vector<PoseAnswer> answers;
+    for (int i = 0; i < 3 * kBlock; ++i) answers.push_back(all.solve(makePose(i), i));
+    for (const int block : {2, 0, 1})
+        for (int i = block * kBlock; i < (block + 1) * kBlock; ++i) {
+            const PoseAnswer answer = some.solve(makePose(i), i);
+            for (std::size_t p = 0; p < answer.paths.size(); ++p) {
+                EXPECT_EQ(answer.paths[p].length, answers[static_cast<std::size_t>(i)].paths[p].length);
+                EXPECT_EQ(answer.paths[p].effectiveArms, answers[static_cast<std::size_t>(i)].paths[p].effectiveArms);
+            }
+        }
+}
+
+TEST(PathStudy, RefusesAPoseWhoseBlockWasNotSolvedUpToIt) {
+    PathStudy study(readElbow());
+    study.solve({}, 0);
+    study.solve({}, 1);
+    try {
+        study.solve({}, 3);
+        FAIL();
+    } catch (const InvalidInput& error) {
+        EXPECT_STREQ(error.what(),
+                     "path study: the pose at place 3 comes after that at 1, but poses of a block must be solved one "
+                     "after another");
+    }
+    EXPECT_THROW(study.solve({}, -1), InvalidInput);
 }
 
 TEST(PathStudy, RatesAreSlopesOfLengthsAlongAMotion) {

@@ -65,6 +65,26 @@ TEST(CableKinematics, PowerOfTheForcesIsMinusTensionTimesRate) {
     }
 }
 
+TEST(CableKinematics, MobilityForcesByScrewsAreThoseByTheJacobian) {
+    MechanismScene scene;
+    MobilityScrews screws;
+    for (const Real number : {0.0, 0.7, 1.4, 2.1}) {
+        State state = scene.makeState(number);
+        scene.system.realize(state, Stage::Position);
+        screws.update(scene.matter, state);
+        SimTK::Vector byJacobian, byScrews;
+        scene.cable.calcUnitMobilityForces(state, byJacobian);
+        scene.cable.calcUnitMobilityForces(state, screws, byScrews);
+        ASSERT_EQ(byScrews.size(), byJacobian.size());
+        EXPECT_GT(byJacobian.norm(), 0.1);
+        EXPECT_LT((byScrews - byJacobian).norm(), 1e-14 * byJacobian.size());
+    }
+    State state = scene.makeState(0);
+    scene.system.realize(state, Stage::Position);
+    SimTK::Vector f;
+    EXPECT_THROW(scene.cable.calcUnitMobilityForces(state, MobilityScrews(), f), InvalidInput);
+}
+
 TEST(CableKinematics, ForcesAndMomentsBalance) {
     MechanismScene scene;
     State state = scene.makeState(0.3);

@@ -88,6 +88,11 @@ TEST(MovingPoints, MobilityForcesAreTheSlopeOfTheLengthAndThePowerIsRight) {
         scene.system.realize(state, Stage::Velocity);
         SimTK::Vector f;
         scene.cable.calcUnitMobilityForces(state, f);
+        MobilityScrews screws;
+        screws.update(scene.matter, state);
+        SimTK::Vector byScrews;
+        scene.cable.calcUnitMobilityForces(state, screws, byScrews);
+        EXPECT_LT((byScrews - f).norm(), 1e-14 * f.size());
         for (int i = 0; i < state.getNQ(); ++i) {
             Real length[2];
             const Real h = 1e-5;

@@ -2,6 +2,7 @@
 #include "paths/default_course.h"
 
 #include <cmath>
+#include <optional>
 
 #include "paths/arc_course.h"
 #include "paths/route.h"
@@ -43,12 +44,11 @@ struct RoutePlace {
     Vec3 from_G, to_G;                   ///< before and after
 };
 
-/** Whether the path is in the class of the route about a body without end: there it is decided by the turning. */
-bool turnsAsRoute(const PosedProblem& scene, const PathSolution& path, int e, int in, int out,
-                  const RoutePlace& route) {
+/** Whether the path is in the class of the route about a body without end: there it is decided by the turning.
+@param asked   that of the route [rad] */
+bool turnsAsRoute(const PosedProblem& scene, const PathSolution& path, int e, int in, int out, double asked) {
     const StraightSegment &before = path.segments[in], &after = path.segments[out];
     const Pose& X_GS = scene.getPose(e);
-    const double asked = calcRouteTurning(X_GS, route.from_G, route.waypoints, route.to_G);
     const double turning =
         calcTurning(scene.getSurface(e), path.contacts[e], X_GS.shiftBack(before.A), X_GS.shiftBack(after.B));
     // Where the neighbors stand elsewhere than the waypoints, half a turn says too little.
@@ -56,14 +56,40 @@ bool turnsAsRoute(const PosedProblem& scene, const PathSolution& path, int e, in
     return std::abs(turning - asked) < (isBetweenPoints ? 1 : 0.5) * kPi;
 }
 
+/** Whether an endless body lies alone between the points beside it, with no more than a side asked for. */
+bool isAloneWithSide(const PosedProblem& scene, int e) {
+    const PathElement& element = scene.problem.getElement(e);
+    if (!element.isEndless || !std::holds_alternative<PassOnSide>(element.hint)) return false;
+    const auto isPointOrNext = [&](int next, int step) {
+        while (!scene.pose.hasElement(next)) next += step;
+        return scene.isPoint(next);
+    };
+    return isPointOrNext(e - 1, -1) && isPointOrNext(e + 1, 1);
+}
+
+/** Of the angle between the outward normals of a path and of the straight line, up to which they clearly pass a body on
+the same side: where the arc turns little, and however much it turns. (2026-11-27: over the ellipsoid of a rib cage,
+round which arcs turn by more than a right angle, a search found another minimum at 0.85.) */
+constexpr double kCosineOfSameSide = 0.9, kCosineOfSameMiddle = 0.95;
+/** Of the angle between its ends' tangents, up to which an arc turns little. */
+constexpr double kCosineOfShortArc = 0.5;
+
 /** Whether the path passes a body where a search would have it, clearly: near the edge of that side there may be
-another minimum, which the search prefers. */
-bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e, const RoutePlace& route) {
+another minimum, which the search prefers, as there may be beside another obstacle that the path touches, since then the
+straight line does not tell how it comes from there. (2026-11-27: over the cylinder and the ellipsoid of an
+infraspinatus two minima touch both.) */
+bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e, int in, int out,
+                     const RoutePlace& route) {
     const ObstacleContact& contact = path.contacts[e];
     if (contact.isTouched && !(calcTurn(contact) < 2 * kPi)) return false;
+    const bool isBetweenPoints =
+        scene.isPoint(path.segments[in].fromElement) && scene.isPoint(path.segments[out].toElement);
+    if (contact.isTouched && !isBetweenPoints) return false;
     const Vec3 N =
         contact.isTouched ? calcMiddleNormal(scene.getSurface(e), contact).normalized() : contact.clearance.N;
-    return N.dot(calcDefaultSide(scene, e, route.waypoints, route.from_G, route.to_G)) > kCosineOfNear;
+    const bool isShort = !contact.isTouched || contact.geodesic.P.t.dot(contact.geodesic.Q.t) > kCosineOfShortArc;
+    return N.dot(calcDefaultSide(scene, e, route.waypoints, route.from_G, route.to_G)) >
+           (isShort ? kCosineOfSameSide : kCosineOfSameMiddle);
 }
 
 /** A string through a ring whose ends pull it to one side lies on the tube there; on the far side there is another
@@ -80,24 +106,34 @@ bool liesWhereEndsPull(const PosedProblem& scene, int e, const ObstacleContact& 
 }  // namespace
 
 bool isOnDefaultCourse(const PosedProblem& scene, const PathSolution& path) {
-    const Route asked = calcAskedRoute(scene);
+    std::optional<Route> laid;  // where it is needed: to lay it costs as much as to continue a path
     bool isOnCourse = true;
     scene.forEachObstacleOnSegments(path, [&](int e, int in, int out) {
         const ObstacleContact& contact = path.contacts[e];
         if (!isOnCourse || contact.isSwitchedOff) return;
+        isOnCourse = !contact.yields;
+        if (isAloneWithSide(scene, e)) {
+            const Pose& X_GS = scene.getPose(e);
+            const double asked = calcAskedTurn(scene.problem.getElement(e), X_GS.shiftBack(path.segments[in].A),
+                                               X_GS.shiftBack(path.segments[out].B));
+            isOnCourse = isOnCourse && turnsAsRoute(scene, path, e, in, out, asked);
+            return;
+        }
+        if (!laid) laid = calcAskedRoute(scene);
+        const Route& asked = *laid;
         int last = e - 1, next = e + 1;
         while (asked.waypoints[last].empty()) --last;
         while (asked.waypoints[next].empty()) ++next;
         const RoutePlace route{asked.waypoints[e], asked.waypoints[last].back(), asked.waypoints[next].front()};
         const int count = asked.threading.counts[e];
-        isOnCourse = !contact.yields;
         if (count != PassageRule::kAny)
             isOnCourse = isOnCourse && contact.passage.isKnown() && contact.passage.count == count;
         if (!isOnCourse) return;
         if (scene.problem.getElement(e).isEndless)
-            isOnCourse = turnsAsRoute(scene, path, e, in, out, route);
+            isOnCourse = turnsAsRoute(scene, path, e, in, out,
+                                      calcRouteTurning(scene.getPose(e), route.from_G, route.waypoints, route.to_G));
         else if (count == PassageRule::kAny || (count == 0 && route.waypoints.empty()))
-            isOnCourse = isOnSideOfRoute(scene, path, e, route);
+            isOnCourse = isOnSideOfRoute(scene, path, e, in, out, route);
         else  // more often, or round the ring, in several ways
             isOnCourse = std::abs(count) == 1 && liesWhereEndsPull(scene, e, contact, route);
     });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/point_path.h"
 #include "paths/posed_problem.h"
 #include "paths/reversed_tangents.h"
 #include "paths/route_check.h"
@@ -73,6 +74,7 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
             "path solver: the path to continue has ", path.contacts.size(), " elements, the problem ",
             problem.getNumElements());
     if (!begin(problem, givenPose, path)) return;
+    if (!hasObstacles(problem)) return layPointPath(problem, givenPose, path);
     const PathPose& pose = calcWorkingPose(problem, givenPose);
     const bool isContinued = !path.isEmpty();
     if (!isContinued) path.contacts.assign(problem.getNumElements(), ObstacleContact());
@@ -87,6 +89,7 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     require(static_cast<int>(path.contacts.size()) == problem.getNumElements(),
             "path solver: solveKeepingContacts needs a path that was solved before");
     if (!begin(problem, givenPose, path)) return;
+    if (!hasObstacles(problem)) return layPointPath(problem, givenPose, path);
     const PathPose& pose = calcWorkingPose(problem, givenPose);
     const PosedProblem scene{problem, pose};
     switchOffEnclosing(scene, path);

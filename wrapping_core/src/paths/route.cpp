@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/arc_course.h"
 #include "surfaces/arc_walker.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/segment_clearance.h"
@@ -36,9 +37,10 @@ longer than half the height there. From a ray that passes by, the surface point 
 Vec3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
     constexpr int kMaxSteps = 200;
     const double size = surface.getSize(), least = 1e-3 * size;
+    const Vec3 outward = makeCylindrical(1, azimuth, 0);
     double radius = kFar * size;
     for (int i = 0; i < kMaxSteps && radius > 0; ++i) {
-        const Vec3 p = makeCylindrical(radius, azimuth, z);
+        const Vec3 p = radius * outward + Vec3(0, 0, z);
         const double height = surface.calcHeight(p);
         if (!(height > least)) return surface.findSurfacePoint(p).p;
         radius -= height / 2;
@@ -127,18 +129,21 @@ double calcTurnToSide(const Surface& surface, const Chord& chord, const Vec3& si
     return isForward ? forward : forward - 2 * kPi;
 }
 
+/** Whether the straight line is clear of an obstacle on the side that is asked for. @param D   its lowest point */
+bool isClearOnSide(const PathElement& element, const Vec3& D) {
+    return element.surface->calcHeight(D) > 0 && element.side_S.dot(D) >= -kOnTheEdge * element.surface->getSize();
+}
+
 /** Nothing where the line is clear on the side that is asked for. */
 void guideToSide(const PathElement& element, const Vec3& point_S, const Chord& chord, std::vector<Vec3>& waypoints_S) {
     const Surface& surface = *element.surface;
     const Vec3 D = findLowestPoint(surface, chord);
-    const bool isClear = surface.calcHeight(D) > 0;
-    const bool isOnSide = element.side_S.dot(D) >= -kOnTheEdge * surface.getSize();
     if (element.isEndless) {
-        if (!element.side_S.allFinite() || (isClear && isOnSide)) return;
+        if (!element.side_S.allFinite() || isClearOnSide(element, D)) return;
         layTurn(surface, chord, calcTurnToSide(surface, chord, element.side_S), waypoints_S);
     } else if (point_S.allFinite()) {
         waypoints_S.push_back(point_S);
-    } else if (!isClear || !isOnSide) {
+    } else if (!isClearOnSide(element, D)) {
         waypoints_S.push_back(findPointOnSide(surface, D, element.side_S));
     }
 }
@@ -269,6 +274,13 @@ Route calcAskedRoute(const PosedProblem& scene) {
         if (!points.empty()) last_G = points.back();
     }
     return route;
+}
+
+double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S) {
+    const Chord chord{A_S, B_S};
+    const bool isDirect =
+        !element.side_S.allFinite() || isClearOnSide(element, findLowestPoint(*element.surface, chord));
+    return isDirect ? calcShortTurning(A_S, B_S) : calcTurnToSide(*element.surface, chord, element.side_S);
 }
 
 void rememberPath(const PathSolution& path, std::vector<PassedObstacle>& previous) {

@@ -20,6 +20,10 @@ struct Route {
 body (PathElement::isEndless) a side is a homotopy class, and is laid as the turn about the axis that leads to it. */
 Route calcAskedRoute(const PosedProblem& scene);
 
+/** By how much the asked route turns about the z axis of S past an endless body that lies alone between two points,
+with no more than a side asked for [rad]: what calcAskedRoute() lays there, without laying it. */
+double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S);
+
 /** What is remembered of an obstacle of a path, so that a string can be laid along that again. */
 struct PassedObstacle {
     bool isTouched = false, isSwitchedOff = false;

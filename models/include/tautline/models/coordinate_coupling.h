@@ -19,8 +19,14 @@ coordinate is let go for its own arm. */
 class CoordinateCoupling {
 public:
     CoordinateCoupling() = default;
-    /** Stage: Position, of the matter subsystem. */
-    CoordinateCoupling(const BuiltModel& model, const SimTK::State& state);
+    /** In no pose yet: update() it before anything is asked. The model must outlive it. */
+    explicit CoordinateCoupling(const BuiltModel& model);
+    /** In the pose of a State. Stage: Position, of the matter subsystem. */
+    CoordinateCoupling(const BuiltModel& model, const SimTK::State& state) : CoordinateCoupling(model) {
+        update(state);
+    }
+    /** Goes over to another pose. Stage: as above. */
+    void update(const SimTK::State& state);
 
     /** In the order of BuiltModel::getCoordinateNames(), as for all that follows. */
     int getNumCoordinates() const { return static_cast<int>(m_mobilities.size()); }
@@ -42,6 +48,9 @@ private:
         double speed;  ///< per speed of the coordinate
     };
 
+    const BuiltModel* m_model = nullptr;
+    std::vector<const BuiltModel::CoordinateSlot*> m_slots;  ///< by coordinate
+    bool m_hasLoops = false;  ///< constraints that are neither couplers, locks nor drives
     std::vector<int> m_mobilities;
     std::vector<std::vector<Share>> m_motions;  ///< by coordinate; empty: held
 };

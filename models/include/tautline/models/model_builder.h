@@ -28,6 +28,8 @@ public:
         bool locked = false;
         /** Of the constraint that holds a locked coordinate. */
         SimTK::ConstraintIndex lock;
+        /** Of the constraint that drives it where its joint is not driven as a whole. */
+        SimTK::ConstraintIndex drive;
         /** Motion as a function of time, enforced; none if locked or free. */
         std::optional<ScalarFunction> prescribedMotion;
     };
@@ -46,6 +48,8 @@ public:
     /** Sets all coordinates and speeds to their defaults, driven ones to their motion at the state's time, then lets
     the couplers have their way. */
     void setDefaultPose(SimTK::State& state) const;
+    /** The same with speeds of 0, but those of driven coordinates. */
+    void setRestingPose(SimTK::State& state) const;
     /** Does not clip to the range, clamped or not. A locked coordinate stays locked at the value; a driven one goes
     where its motion says as soon as the state is simulated. */
     void setCoordinate(SimTK::State& state, const std::string& name, double value) const;
@@ -72,6 +76,9 @@ public:
 
 private:
     friend class MultibodyAssembly;
+
+    void setPose(SimTK::State& state, bool isAtRest) const;
+    void setCoordinate(SimTK::State& state, const CoordinateSlot& slot, double value) const;
 
     SimTK::SimbodyMatterSubsystem* m_matter = nullptr;
     std::map<std::string, SimTK::MobilizedBodyIndex> m_bodies;

@@ -33,6 +33,7 @@ public:
     SimTK::GeneralForceSubsystem& updForces() { return m_forces; }
     const SimTK::MultibodySystem& getSystem() const { return m_system; }
     const BuiltModel& getModel() const { return m_model; }
+    const CableSubsystem& getCables() const { return m_cables; }
     const std::vector<MuscleSlot>& getMuscles() const { return m_paths->getMuscles(); }
     std::vector<MuscleSlot>& updMuscles() { return m_paths->updMuscles(); }
     const std::vector<SpringSlot>& getSprings() const { return m_paths->getSprings(); }

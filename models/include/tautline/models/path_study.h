@@ -79,10 +79,17 @@ struct CorePath {
 such as those of a measured motion. Forces play no part.
 
 In each pose coordinates are set as given, clipped to no range, couplers give their dependent coordinates values and
-speeds, and other constraints are met by the least change of coordinates. The answer is a function of the pose alone,
-whatever was solved before. */
+speeds, and other constraints are met by the least change of coordinates.
+
+Poses of a row, such as the frames of a motion, are solved in blocks of kPosesPerBlock: the first pose of each by
+itself, the others continued from the one before, which saves the search. A continued path is kept only where it runs as
+one that is found anew has to (ContactMode::Free), so that it is the same path; its last digits depend on where it was
+continued from. So an answer depends on no more than the poses of its block, whoever solves the blocks, in whichever
+order. */
 class PathStudy {
 public:
+    static constexpr int kPosesPerBlock = 64;
+
     /** @param isWanted   by name of the path; the others are not solved
     @throws ModelError as ModelSystem does */
     explicit PathStudy(const ModelDescription& description,
@@ -95,9 +102,14 @@ public:
     const std::vector<StudiedPath>& getPaths() const;
     /** All, in the order of the file. */
     const std::vector<std::string>& getCoordinateNames() const;
+    /** "/jointset/<joint>/<coordinate>" in the same order: how files of states name them. */
+    std::vector<std::string> getCoordinatePaths() const;
 
-    /** @throws ModelError naming a coordinate that the model does not have, or whose value or speed is not finite */
-    PoseAnswer solve(const ModelPose& pose);
+    /** @param place   of the pose in its row, from 0 on: within a block one after another. 0 for a pose that stands
+    alone: its answer is a function of the pose, whatever was solved before
+    @throws ModelError naming a coordinate that the model does not have, or whose value or speed is not finite;
+    InvalidInput if the pose before it in its block is not the one that was solved last */
+    PoseAnswer solve(const ModelPose& pose, int place = 0);
 
     /** For the core's functions; valid until the next pose is solved. @param path   as in getPaths(), after solve() */
     CorePath getCorePath(std::size_t path) const;

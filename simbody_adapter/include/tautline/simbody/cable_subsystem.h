@@ -64,9 +64,11 @@ public:
     it accepts a step: for loops over poses without an integrator, in which ContactMode::Free and Tracked are then as
     fast as in a study. Invalidates Position; at the same pose nothing is solved again. */
     void acceptPaths(SimTK::State& state) const;
+    /** Has the next path of every cable be found anew. Stage: Topology; invalidates Position. */
+    void forgetPaths(SimTK::State& state) const;
 
-    /** Whether the cables and their obstacles appear in a Visualizer by themselves, as CableDecorations draws them; true
-    unless set. Say false where a CableDecorations of your own draws them. */
+    /** Whether the cables and their obstacles appear in a Visualizer by themselves, as CableDecorations draws them;
+    true unless set. Say false where a CableDecorations of your own draws them. */
     void setShowDecorations(bool shows);
     bool getShowDecorations() const;
 
