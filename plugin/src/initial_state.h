@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_record.h"
 #include "motion_file.h"
 #include "tautline/models/model_system.h"
 
@@ -18,6 +19,8 @@ struct InitialState {
     std::map<std::string, double> speeds;        ///< of coordinates [rad/s or m/s]
     std::map<std::string, double> activations;   ///< of muscles
     std::map<std::string, double> fiberLengths;  ///< of muscles [m]
+    /** Of all paths, where a run goes on; none: as the model says, or found anew. */
+    std::optional<std::vector<RecordedContact>> contacts;
 
     /** Sets time, coordinates and speeds, then lets constraints have their way. Realizes the State to Position.
     @throws models::ModelError if constraints cannot be met near the pose, or a joint is singular there */

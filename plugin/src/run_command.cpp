@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "command_options.h"
 #include "earlier_run.h"
 #include "interruption.h"
 #include "model_report.h"
@@ -62,11 +63,7 @@ void printEnding(const SimulationEnding& ending, double end, std::ostream& out) 
 }  // namespace
 
 void RunCommand::declare(CLI::App& app) {
-    app.option_defaults()->take_last();  // so that what a script gives can be overridden
-    app.add_option("MODEL", modelFile, "model file (.osim)")->required();
-    app.add_option("--ignore", ignored, "name or type of an element to leave out though it is not known; repeatable")
-        ->take_all()
-        ->allow_extra_args(false);
+    addModelOptions(app, modelFile, ignored);
     CLI::Option* duration =
         app.add_option("--duration", simulation.duration, "time to simulate [s]")->capture_default_str();
     app.add_option("--from", startTime, "time at which to begin [s]; default: 0, or the first row of --states");
@@ -76,26 +73,19 @@ void RunCommand::declare(CLI::App& app) {
                    "states file (.sto): begin with its row at the time of --from, or with its first");
     app.add_flag("--resume", resumes,
                  "go on from where an interrupted run into the folder of --out has ended; other options as then");
-    app.add_option("--pose", pose,
-                   "coordinate at the start, NAME=VALUE in rad or m (30deg: degrees), over the states file; repeatable")
-        ->take_all()
-        ->allow_extra_args(false);
-    app.add_option("--speed", speeds, "its speed at the start, NAME=VALUE in rad/s or m/s; repeatable")
-        ->take_all()
-        ->allow_extra_args(false);
-    app.add_option("--lock", locked, "coordinates that stay where they begin, by name or pattern; repeatable")
-        ->take_all()
-        ->allow_extra_args(false);
+    addRepeatable(app, "--pose", pose,
+                  "coordinate at the start, NAME=VALUE in rad or m (30deg: degrees), over the states file");
+    addRepeatable(app, "--speed", speeds, "its speed at the start, NAME=VALUE in rad/s or m/s");
+    addRepeatable(app, "--lock", locked, "coordinates that stay where they begin, by name or pattern");
     app.add_option("--gravity", gravity, "gravity in ground, three numbers [m/s^2], in place of the model's")
         ->expected(3)
         ->allow_extra_args(false);
-    app.add_option("--excitation", excitations.assignments,
-                   "constant excitation, NAME=VALUE in [0, 1], of all muscles that match NAME; repeatable; names win "
-                   "over patterns, the last pattern over those before; 0.05 for all others")
-        ->take_all()
-        ->allow_extra_args(false);
-    app.add_option("--excitations", excitations.file,
-                   "controls file (.sto) with a column of excitations per muscle; its other columns are not used");
+    addRepeatable(app, "--excitation", excitations.assignments,
+                  "constant excitation, NAME=VALUE in [0, 1], of all muscles that match NAME; names win "
+                  "over patterns, the last pattern over those before; 0.05 for all others");
+    app.add_option(
+        "--excitations", excitations.file,
+        "controls file with a column (.sto) or control (.xml) of excitations per muscle; its others are not used");
     app.add_option("--external-loads", externalLoadsFile,
                    "file of ExternalLoads (.xml) with measured forces, such as the ground's");
     app.add_option("--interval", simulation.interval, "time between rows of the results [s]")->capture_default_str();
@@ -124,8 +114,13 @@ InitialState RunCommand::makeInitialState(const models::ModelDescription& descri
                                           std::vector<std::string>& notes) const {
     InitialState initial;
     if (resumes) {
-        const std::filesystem::path file = outFolder / "states.sto";
-        return readStates(file, description, readStorage(file).rows.back()[0], notes);
+        const std::filesystem::path file = outFolder / "states.sto", contacts = outFolder / "contacts.csv";
+        initial = readStates(file, description, readStorage(file).rows.back()[0], notes);
+        if (std::filesystem::exists(contacts))
+            initial.contacts = readContacts(contacts);
+        else
+            notes.push_back(contacts.string() + " is missing: where paths touch obstacles is found anew");
+        return initial;
     }
     if (!statesFile.empty()) initial = readStates(statesFile, description, startTime, notes);
     if (startTime) initial.time = *startTime;
@@ -188,6 +183,7 @@ std::vector<std::string> RunCommand::writeResults(const SimulationResult& result
     if (!result.muscleSummaries.empty()) writeStorage(result.muscles, add("muscles.sto"));
     writeStorage(result.clearances, add("clearances.sto"));
     writeWhole(result.events, add("events.csv"));
+    writeWhole(result.contacts, add("contacts.csv"));
     if (!result.starts.empty()) writeWhole(result.starts, add("start.csv"));
     return files;
 }

@@ -437,6 +437,7 @@ void integrate(ModelSystem& model, const State& initialState, const SimulationOp
     result.finalState = run.getLastState();
     result.ending = {kind, run.getTime(), kind == Kind::Stuck ? describeStop(model, result.finalState) : ""};
     model.getSystem().realize(result.finalState, Stage::Velocity);
+    result.contacts = makeContactText(model, result.finalState);
 }
 
 }  // namespace
@@ -452,7 +453,10 @@ SimulationResult simulate(ModelSystem& model, const std::map<std::string, Excita
     setExcitations(model, excitations);
     State state = model.makeDefaultState();
     initial.setPose(model, state);
-    startPaths(model, state, result);
+    if (initial.contacts)
+        continueContacts(*initial.contacts, model, state);
+    else
+        startPaths(model, state, result);
     const std::vector<MuscleEquilibrium> starts = initial.setMuscles(model, state);
     Recorder recorder(model, options.recordsAllArms, result, watchRow);
     for (std::size_t i = 0; i < starts.size(); ++i) result.muscleSummaries[i].start = starts[i];

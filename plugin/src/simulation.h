@@ -50,6 +50,7 @@ struct SimulationResult {
     StorageTable muscles;     ///< fibers, tendons, forces, powers; without columns if the model has no muscles
     StorageTable clearances;  ///< where each obstacle stands to the straight segment that passes it
     std::string events;       ///< events.csv: time,path,obstacle,kind,length_change
+    std::string contacts;     ///< contacts.csv of the end: makeContactText()
     std::string starts;       ///< start.csv: path,iteration,obstacle,error; empty if the model gives no starts
     std::vector<PathSummary> summaries;          ///< in the order of ModelSystem::getPaths()
     std::vector<MuscleSummary> muscleSummaries;  ///< in the order of ModelSystem::getMuscles()

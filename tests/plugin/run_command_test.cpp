@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The options of `tautline run` as a user gives them. */
 #include <cmath>
+#include <fstream>
 
 #include "program_support.h"
 
@@ -153,6 +154,57 @@ TEST(RunCommand, ResumesAnInterruptedRun) {
     EXPECT_EQ(runTautline("run " + kElbow + " --resume --out " + makeFolder("run_nothing").string()).exitCode, 1);
     const Outcome other = runTautline("run " + kPendulum + " --duration 0.3 --resume --out " + parts.string());
     EXPECT_EQ(other.exitCode, 1) << other.text;
+}
+
+/** A string from (-0.5, 0.1, -0.2) once round a fixed cylinder of radius 0.1 about z to a body that slides along x from
+(0.5, 0.1, 0.2): a search from the pose alone has it straight over the cylinder. */
+const char* const kWoundModel = R"(<OpenSimDocument Version="40000"><Model name="wound"><gravity>0 0 0</gravity>
+<Ground name="ground"><WrapObjectSet><objects><WrapCylinder name="post"><radius>0.1</radius><length>2</length>
+</WrapCylinder></objects></WrapObjectSet></Ground>
+<BodySet><objects><Body name="cart"><mass>1</mass><mass_center>0 0 0</mass_center><inertia>1 1 1 0 0 0</inertia></Body>
+</objects></BodySet>
+<JointSet><objects><SliderJoint name="rail"><socket_parent_frame>/ground</socket_parent_frame>
+<socket_child_frame>/bodyset/cart</socket_child_frame><coordinates><Coordinate name="x"><range>-3 3</range></Coordinate>
+</coordinates></SliderJoint></objects></JointSet>
+<ForceSet><objects><PathSpring name="string"><GeometryPath><PathPointSet><objects>
+<PathPoint name="a"><socket_parent_frame>/ground</socket_parent_frame><location>-0.5 0.1 -0.2</location></PathPoint>
+<PathPoint name="b"><socket_parent_frame>/bodyset/cart</socket_parent_frame><location>0.5 0.1 0.2</location></PathPoint>
+</objects></PathPointSet><PathWrapSet><objects><PathWrap name="w"><wrap_object>post</wrap_object><tautline_start>
+<point>0 0.1 -0.08</point><direction>1 0 0.25</direction><length>0.65</length></tautline_start></PathWrap></objects>
+</PathWrapSet></GeometryPath><resting_length>1.5</resting_length><stiffness>50</stiffness><dissipation>0</dissipation>
+</PathSpring></objects></ForceSet></Model></OpenSimDocument>
+)";
+
+/** (2026-11-27: contacts were found anew, and turns lost.) */
+TEST(RunCommand, ResumesWithThePathWoundUpAsItWas) {
+    const std::string model = writeInput("wound.osim", kWoundModel).string();
+    const std::filesystem::path whole = makeFolder("wound_whole"), parts = makeFolder("wound_parts");
+    const std::string options = " --accuracy 1e-10 --interval 0.05 --speed x=0.4 --out ";
+    ASSERT_EQ(runTautline("run " + model + " --duration 0.4" + options + whole.string()).exitCode, 0);
+    ASSERT_EQ(runTautline("run " + model + " --duration 0.2" + options + parts.string()).exitCode, 0);
+    // The start of the model no longer leads to the path where the cart has gone to: the record does.
+    const std::string moved =
+        std::string(kWoundModel).replace(std::string(kWoundModel).find("<length>0.65<"), 13, "<length>0.05<");
+    const std::string resumedModel = writeInput("wound.osim", moved).string();
+    const Outcome resumed = runTautline("run " + resumedModel + " --duration 0.4 --resume" + options + parts.string());
+    ASSERT_EQ(resumed.exitCode, 0) << resumed.text;
+    const StorageTable a = readStorage(whole / "paths.sto"), b = readStorage(parts / "paths.sto");
+    const std::size_t length = findColumn(a, "/forceset/string|length");
+    ASSERT_EQ(a.rows.size(), b.rows.size());
+    for (std::size_t i = 0; i < a.rows.size(); ++i) {
+        EXPECT_NEAR(a.rows[i][length], b.rows[i][length], 1e-7);
+        EXPECT_GT(a.rows[i][length], 1.2);
+    }
+    // Two straight lines along the top and a turn, unrolled.
+    EXPECT_NEAR(a.rows[0][length], std::hypot(1 + 2 * std::acos(-1.0) * 0.1, 0.4), 1e-9);
+    std::filesystem::remove(parts / "contacts.csv");
+    const Outcome anew = runTautline("run " + model + " --duration 0.5 --resume" + options + parts.string());
+    EXPECT_TRUE(anew.has("contacts.csv is missing: where paths touch obstacles is found anew")) << anew.text;
+    std::ofstream(parts / "contacts.csv")
+        << "path,obstacle,x,y,z,dx,dy,dz,length\n/forceset/string,post,0,one,0,1,0,0,1\n";
+    const Outcome broken = runTautline("run " + model + " --duration 0.6 --resume" + options + parts.string());
+    EXPECT_EQ(broken.exitCode, 1);
+    EXPECT_TRUE(broken.has("contacts.csv:2: 'one' is not a finite number")) << broken.text;
 }
 
 TEST(RunCommand, WritesMomentArmsOfCrossedCoordinatesUnlessAllAreAskedFor) {
