@@ -68,11 +68,11 @@ bool isAloneWithSide(const PosedProblem& scene, int e) {
 }
 
 /** Of the angle between the outward normals of a path and of the straight line, up to which they clearly pass a body on
-the same side: where the arc turns little, and however much it turns. (2026-11-27: over the ellipsoid of a rib cage,
-round which arcs turn by more than a right angle, a search found another minimum at 0.85.) */
-constexpr double kCosineOfSameSide = 0.9, kCosineOfSameMiddle = 0.95;
-/** Of the angle between its ends' tangents, up to which an arc turns little. */
-constexpr double kCosineOfShortArc = 0.5;
+the same side. (2026-11-27: over the ellipsoid of a rib cage a search found another minimum at 0.85.) */
+constexpr double kCosineOfSameSide = 0.9;
+/** Of the angle between its ends' tangents, up to which an arc turns little: beyond that an ellipsoid has three minima
+about the straight line, and which of them a search finds its lowest place does not tell. */
+constexpr double kCosineOfShortArc = 0.3;
 
 /** Whether the path passes a body where a search would have it, clearly: near the edge of that side there may be
 another minimum, which the search prefers, as there may be beside another obstacle that the path touches, since then the
@@ -88,8 +88,7 @@ bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e,
     const Vec3 N =
         contact.isTouched ? calcMiddleNormal(scene.getSurface(e), contact).normalized() : contact.clearance.N;
     const bool isShort = !contact.isTouched || contact.geodesic.P.t.dot(contact.geodesic.Q.t) > kCosineOfShortArc;
-    return N.dot(calcDefaultSide(scene, e, route.waypoints, route.from_G, route.to_G)) >
-           (isShort ? kCosineOfSameSide : kCosineOfSameMiddle);
+    return isShort && N.dot(calcDefaultSide(scene, e, route.waypoints, route.from_G, route.to_G)) > kCosineOfSameSide;
 }
 
 /** A string through a ring whose ends pull it to one side lies on the tube there; on the far side there is another
