@@ -72,8 +72,11 @@ public:
     using PoseAnswer = models::PoseAnswer;
 
     /** @param base   values of the coordinates that are not swept, over their defaults */
-    explicit ModelSweep(const models::ModelDescription& description, std::map<std::string, double> base = {})
-        : m_description(description), m_base(std::move(base)), m_walked(description), m_alone(description) {}
+    explicit ModelSweep(models::ModelDescription description, std::map<std::string, double> base = {})
+        : m_description(std::move(description)),
+          m_base(std::move(base)),
+          m_walked(m_description),
+          m_alone(m_description) {}
 
     /** @param steps   of each coordinate over its range, or by 1 to either side of its default where that is unbounded
      */
@@ -221,7 +224,7 @@ private:
         return isMinimum && std::abs(path.length - from.solution.length) < kLeastJump;
     }
 
-    const models::ModelDescription& m_description;
+    models::ModelDescription m_description;
     std::map<std::string, double> m_base;
     models::PathStudy m_walked, m_alone;
     SweepReport m_report;
