@@ -16,7 +16,8 @@ struct EarlierRun;
 struct SimulationResult;
 
 /** `tautline run`: simulates a model file and writes states.sto, paths.sto, muscles.sto if there are any,
-clearances.sto, events.csv and contacts.csv, start.csv if the model gives geodesics to start from, and pictures if asked for. */
+clearances.sto, events.csv and contacts.csv, start.csv if the model gives geodesics to start from, and pictures if asked
+for. */
 struct RunCommand {
     std::filesystem::path modelFile, outFolder = "results";
     /** Names or types of unknown elements that are left out. */

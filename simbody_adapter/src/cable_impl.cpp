@@ -187,7 +187,8 @@ void CableImpl::solve(const State& state, const CablePath& start, CableWorkspace
     const bool isTimed = m_numObstacles > 0;
     const Clock::time_point begin = isTimed ? Clock::now() : Clock::time_point();
     findPath(state, start, workspace, path);
-    if (!path.solution.segments.empty()) m_counters.countSolve(path.solution, isTimed ? Clock::now() - begin : Clock::duration());
+    if (!path.solution.segments.empty())
+        m_counters.countSolve(path.solution, isTimed ? Clock::now() - begin : Clock::duration());
     calcUnitForces(path.solution, path.pose, path.forces);
     path.serial = m_cables.makeSerial();
     path.startSerial = start.serial;
