@@ -45,9 +45,9 @@ void writeNumbers(const PathStudy& study, const std::vector<PoseAnswer>& answers
     }
 }
 
-/** Works through the poses: each worker has a study of its own and takes some poses in a row. */
+/** Works through the poses: each worker has a study of its own and takes blocks of poses. */
 std::vector<PoseAnswer> solveAll(std::vector<PathStudy>& studies, const std::vector<double>& numbers) {
-    constexpr std::size_t kChunk = 16;
+    constexpr std::size_t kBlock = PathStudy::kPosesPerBlock;
     const std::vector<std::string>& names = studies.front().getCoordinateNames();
     const std::size_t count = numbers.size() / names.size();
     std::vector<PoseAnswer> answers(count);
@@ -55,12 +55,12 @@ std::vector<PoseAnswer> solveAll(std::vector<PathStudy>& studies, const std::vec
     std::vector<std::thread> threads;
     for (PathStudy& study : studies)
         threads.emplace_back([&] {
-            for (std::size_t first = next.fetch_add(kChunk); first < count; first = next.fetch_add(kChunk))
-                for (std::size_t i = first; i < std::min(first + kChunk, count); ++i) {
+            for (std::size_t first = next.fetch_add(kBlock); first < count; first = next.fetch_add(kBlock))
+                for (std::size_t i = first; i < std::min(first + kBlock, count); ++i) {
                     ModelPose pose;
                     for (std::size_t c = 0; c < names.size(); ++c)
                         pose.values[names[c]] = numbers[i * names.size() + c];
-                    answers[i] = study.solve(pose);
+                    answers[i] = study.solve(pose, static_cast<int>(i));
                 }
         });
     for (std::thread& thread : threads) thread.join();
