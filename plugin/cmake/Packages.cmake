@@ -78,17 +78,25 @@ debian_package(python3-tautline SECTION python SUMMARY "shortest paths over smoo
     DESCRIPTION "${about}
 .
 This package has the module for Python.")
-# The manual page is the program's own help.
+# The manual pages are the program's own help: tautline(1), and tautline-run(1) and so on of its commands.
+# manual_page(<name> <command> <line>)
 find_program(help2man help2man)
+set(pages "")
+function(manual_page name command summary)
+    set(page "${PROJECT_BINARY_DIR}/packages/${name}.1")
+    add_custom_command(OUTPUT "${page}.gz" DEPENDS tautline VERBATIM
+        COMMAND ${help2man} --no-info --no-discard-stderr --version-string "${PROJECT_VERSION}" --name "${summary}"
+            --output "${page}" "$<TARGET_FILE:tautline>${command}"
+        COMMAND gzip -9nf "${page}")
+    install(FILES "${page}.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tautline)
+    set(pages ${pages} "${page}.gz" PARENT_SCOPE)
+endfunction()
 if(help2man)
-    set(page "${PROJECT_BINARY_DIR}/packages/tautline.1.gz")
-    add_custom_command(OUTPUT "${page}" DEPENDS tautline VERBATIM
-        COMMAND ${help2man} --no-info --no-discard-stderr --name "shortest paths of muscles over smooth surfaces"
-            --output "${PROJECT_BINARY_DIR}/packages/tautline.1" $<TARGET_FILE:tautline>
-        COMMAND gzip -9nf "${PROJECT_BINARY_DIR}/packages/tautline.1")
-    add_custom_target(manual_page ALL DEPENDS "${page}")
-    install(FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
-        COMPONENT tautline)
+    manual_page(tautline "" "shortest paths of muscles over smooth surfaces")
+    manual_page(tautline-run " run" "simulate a model file forward")
+    manual_page(tautline-solve " solve" "lengths, contacts and moment arms of a model's paths")
+    manual_page(tautline-check " check" "what is in a model file")
+    add_custom_target(manual_page ALL DEPENDS ${pages})
 endif()
 # Compiled files of the Python module come and go with it.
 set(CPACK_DEBIAN_PYTHON3-TAUTLINE_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_LIST_DIR}/python3/postinst"

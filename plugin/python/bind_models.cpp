@@ -336,7 +336,12 @@ void bindModels(py::module_& module) {
                 return r.listPaths([](const auto& path) { return path.isSound() ? 1.0 : 0.0; });
             },
             "(n, paths): 1 for a shortest path on the sides that the model asks for, else 0")
-        .def_property_readonly("status", &StudyResults::getStatus, "n lists of words, one per path")
+        .def_property_readonly(
+            "status",
+            [](const StudyResults& r) {
+                return makeWords(r.getStatus()).attr("reshape")(r.size(), r.getLayout().paths.size());
+            },
+            "(n, paths): words, such as 'solved'")
         .def_property_readonly(
             "moment_arm", [](const StudyResults& r) { return r.listArms(&models::PathAnswer::effectiveArms); },
             "(n, paths, coordinates): effective moment arms -dl/dq [m or 1], coupled coordinates moving along; 0 "

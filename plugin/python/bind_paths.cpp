@@ -270,8 +270,9 @@ void bindPaths(py::module_& module) {
                                                           "Paths in n poses. Vectors are in ground, units SI.")
         .def("__len__", &PathResults::size)
         .def_property_readonly("obstacles", &PathResults::getObstacleNames, "Names, in the order of the path.")
-        .def_property_readonly("status", &PathResults::getStatus,
-                               "n words: solved, not_minimum, left_domain, end_inside or not_converged.")
+        .def_property_readonly(
+            "status", [](const PathResults& r) { return makeWords(r.getStatus()); },
+            "(n,): words, solved, not_minimum, left_domain, end_inside or not_converged.")
         .def_property_readonly(
             "length", [=](const PathResults& r) { return r.list(length); }, "(n,) [m]")
         .def_property_readonly(

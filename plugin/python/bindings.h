@@ -31,6 +31,12 @@ inline void requireShape(const Numbers& array, const char* name, std::initialize
     require(fits, name, " must have the shape (", wanted, "), but has (", found, ")");
 }
 
+/** An array of words, of the shape of nested lists of them. */
+template <class Words>
+py::object makeWords(const Words& words) {
+    return py::module_::import("numpy").attr("array")(words, py::arg("dtype") = "str");
+}
+
 void bindSurfaces(py::module_& module);
 void bindPaths(py::module_& module);
 void bindModels(py::module_& module);

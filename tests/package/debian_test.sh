@@ -26,6 +26,7 @@ inside apt-get update -qq
 inside "dpkg-query -W -f '\${Package}\n' | sort > /before"
 inside "apt-get install -y -qq --no-install-recommends /packages/*.deb"
 inside "tautline --version && tautline solve /models/elbow.osim --pose elbow_flexion=100deg"
+inside "for page in tautline tautline-run tautline-solve tautline-check; do zcat /usr/share/man/man1/\$page.1.gz | grep -q OPTIONS; done"
 inside "cd / && python3 -c 'import tautline; print(tautline.read_osim(\"/models/elbow.osim\").muscles)'"
 inside "apt-get install -y -qq --no-install-recommends g++ cmake make"
 inside "cmake -S /consumer -B /build -DTAUTLINE_WANTED=0.1 '-DTAUTLINE_COMPONENT=simbody;models;plugin' && cmake --build /build && /build/consumer"

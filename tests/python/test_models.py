@@ -43,6 +43,8 @@ def test_moment_arms_are_differences_of_lengths():
     around = np.concatenate([q - h, q, q + h])[:, None]
     results = study.solve(around, coordinates=[coordinate], u=np.full_like(around, 0.5))
     assert np.all(results.sound == 1)
+    assert results.status.shape == results.length.shape and np.all(results.status == "solved")
+    assert study.solve(around[:0], coordinates=[coordinate]).status.shape == (0, len(study.paths))
     assert np.all(np.abs(results.moment_arm[:, :, at]).max(axis=0) > 0.005)
     length = results.length.reshape(3, 9, -1)
     arms = results.moment_arm[9:18, :, at]
