@@ -20,6 +20,7 @@ mkdir "$root/packages" "$root/models"
 cp build-debian/*.deb "$root/packages"
 cp models/elbow.osim "$root/models"
 cp -r tests/package/consumer "$root/consumer"
+cp plugin/examples/host.cpp "$root"
 # Nothing of this environment is in there.
 inside() { chroot "$root" env -i PATH="$PATH" HOME=/root DEBIAN_FRONTEND=noninteractive sh -exc "$*"; }
 inside apt-get update -qq
@@ -30,4 +31,5 @@ inside "for page in tautline tautline-run tautline-solve tautline-check; do zcat
 inside "cd / && python3 -c 'import tautline; print(tautline.read_osim(\"/models/elbow.osim\").muscles)'"
 inside "apt-get install -y -qq --no-install-recommends g++ cmake make"
 inside "cmake -S /consumer -B /build -DTAUTLINE_WANTED=0.1 '-DTAUTLINE_COMPONENT=simbody;models;plugin' && cmake --build /build && /build/consumer"
+inside "g++ /host.cpp -o /host -I /usr/include/simbody -lSimTKsimbody -lSimTKmath -lSimTKcommon -ldl && /host"
 inside "apt-get purge -y -qq libtautline0 && ! find /usr /etc /var/lib -iname '*tautline*' -not -path '/var/lib/dpkg/*' -not -path '/var/lib/apt/*' | grep ."
