@@ -84,9 +84,12 @@ find_program(help2man help2man)
 set(pages "")
 function(manual_page name command summary)
     set(page "${PROJECT_BINARY_DIR}/packages/${name}.1")
+    string(TOUPPER "${name}" heading)
     add_custom_command(OUTPUT "${page}.gz" DEPENDS tautline VERBATIM
         COMMAND ${help2man} --no-info --no-discard-stderr --version-string "${PROJECT_VERSION}" --name "${summary}"
             --output "${page}" "$<TARGET_FILE:tautline>${command}"
+        # help2man heads the page of a command with two words, which man cannot look up.
+        COMMAND sed -i -e "s/^tautline${command} /${name} /" -e "s/^[.]TH TAUTLINE /.TH ${heading} /" "${page}"
         COMMAND gzip -9nf "${page}")
     install(FILES "${page}.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tautline)
     set(pages ${pages} "${page}.gz" PARENT_SCOPE)
