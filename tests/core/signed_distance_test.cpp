@@ -5,8 +5,11 @@
 #include <Eigen/LU>
 
 #include "support/random.h"
+#include "support/seeded_random.h"
 #include "support/shapes.h"
 #include "tautline/paths/segment_clearance.h"
+#include "tautline/surfaces/capsule.h"
+#include "tautline/surfaces/elliptic_cylinder.h"
 #include "tautline/surfaces/offset_surface.h"
 
 namespace tautline::testing {
@@ -224,6 +227,37 @@ TEST(SignedDistance, LinePassingCleanThroughInManyStepsReadsNegativeOnTheKeptSid
         for (const double depth : {1.2, 3.0, 10.0})  // the first just below the bottom
             for (const int steps : {1, 2, 3, 10, 1000})
                 EXPECT_LT(sinkThrough(sunk, depth, steps), 0) << sunk.name << " by " << depth << " in " << steps;
+}
+
+// Symptom until 2026-11-27: a critical point of the watched side that lay beyond an end left the height of that end,
+// and a string straight through an ellipsoid was solved.
+TEST(SignedDistance, NoLineThroughABodyIsClearFromWhateverSideItIsWatched) {
+    constexpr unsigned kSeed = 27;
+    testing::SeededRandom random(kSeed);
+    int through = 0, clear = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const auto axis = [&] { return random.uniform(0.2, 1.0); };
+        const double a = axis(), b = axis(), c = axis();
+        std::shared_ptr<const Surface> surface = std::make_shared<Ellipsoid>(Vec3(a, b, c));
+        if (i % 3 == 1) surface = std::make_shared<Capsule>(a, b, c);
+        if (i % 3 == 2) surface = std::make_shared<EllipticCylinder>(a, b);
+        const Vec3 A = random.vector(1.5), B = random.vector(1.5);
+        double least = kInfinity;
+        for (int k = 0; k <= 200; ++k) least = std::min(least, surface->calcHeight(A + 0.005 * k * (B - A)));
+        if (std::min(surface->calcHeight(A), surface->calcHeight(B)) < 0) continue;
+        LineClearance clearance;
+        clearance.keptC = surface->findSurfacePoint(random.vector(2));
+        clearance.keptN = surface->calcFrame(clearance.keptC, Vec3(1, 2, 3)).N;
+        findSegmentClearance(*surface, Pose(), A, B, clearance);
+        if (least < -1e-4) {
+            ++through;
+            EXPECT_LT(clearance.distance, 0) << "seed " << kSeed << ", line " << i << ", height " << least;
+        } else if (least > 1e-4 && clearance.distance > 0) {
+            ++clear;
+        }
+    }
+    EXPECT_GT(through, 2000);
+    EXPECT_GT(clear, 2000);
 }
 
 TEST(SignedDistance, TouchingLinesReadZero) {

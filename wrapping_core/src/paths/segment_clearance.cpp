@@ -52,6 +52,22 @@ void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double
     clearance.lineCoordinate = s;
 }
 
+/** Eqn. 6.3 puts D on the infinite line: past an end, the height of that end is what counts. But a segment that is
+below the surface between its ends is judged there. */
+void judgeOnSegment(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, LineClearance& clearance) {
+    const double s = std::clamp(clearance.lineCoordinate, 0.0, length);
+    if (s == clearance.lineCoordinate) return;
+    if (!(clearance.distance > 0)) {
+        const double lowest = surface.findLowestPoint(A_S, e_S, length);
+        if (surface.calcHeight(A_S + lowest * e_S) < 0) {
+            findFreshClearance(surface, A_S, e_S, length, lowest, clearance);
+            if (!clearance.found) takeHeight(surface, A_S, e_S, lowest, clearance);
+            return;
+        }
+    }
+    takeHeight(surface, A_S, e_S, s, clearance);
+}
+
 }  // namespace
 
 void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& A_G, const Vec3& B_G,
@@ -70,9 +86,7 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
         if (knowsSide) staySunk(surface, A_S, e_S, length, kept);
         if (!kept.found) takeHeight(surface, A_S, e_S, lowest, kept);
     }
-    // Eqn. 6.3 puts D on the infinite line: past an end, the height of that end is what counts.
-    if (kept.found && !(kept.lineCoordinate >= 0 && kept.lineCoordinate <= length))
-        takeHeight(surface, A_S, e_S, kept.lineCoordinate < 0 ? 0 : length, kept);
+    if (kept.found) judgeOnSegment(surface, A_S, e_S, length, kept);
     const bool isClear = kept.distance > 0 || !kept.keptN.allFinite();
     if (isClear) kept.keptC = kept.C, kept.keptN = kept.N;
     clearance = kept;
