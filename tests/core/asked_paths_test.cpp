@@ -51,6 +51,18 @@ TEST(AskedPaths, TheMiddleOfTheArcDecidesNotThatOfItsChord) {
     runScenes(Asking::Side, 1, 246);
 }
 
+// Symptom until 2026-11-27: solved straight through the ellipsoid, which it met beside an end.
+TEST(AskedPaths, AreNotSolvedThroughTheBody) {
+    runScenes(Asking::Side, 1, 109133);
+}
+
+// Symptom until 2026-11-27: passed beside the ring without a word, since the point lay farther from the plane of the
+// ring than its thin tube.
+TEST(AskedPaths, APointInAThinRingIsInItsHole) {
+    runScenes(Asking::Hole, 1, 102105);
+    runScenes(Asking::Hole, 1, 102663);
+}
+
 TEST(LongAskedPaths, RunNearThePoint) {
     runScenes(Asking::Near, 10000, 100001);
 }

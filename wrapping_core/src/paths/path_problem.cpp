@@ -51,14 +51,14 @@ Vec3 calcSide(const StartHint& hint, const Surface& surface, bool isEndless) {
     return side.normalized();
 }
 
-/** Whether the point of a hint lies in the hole of its surface: over the disc that spans it, and no higher than wide.
- */
+/** Whether the point of a hint lies in the hole of its surface: over or under the disc that spans it, by less than half
+of its radius or, in a thick ring, than the size of the surface. */
 bool isThroughHole(const StartHint& hint, const Surface& surface) {
     const auto* near = std::get_if<PassNear>(&hint);
     const std::optional<Hole> hole = surface.getHole();
     if (!near || !hole) return false;
     const Vec3 over = surface.getSize() * hole->getAxis();
-    return hole->countCrossings(near->point_S - over, near->point_S + over) != 0;
+    return hole->isBeside(near->point_S) || hole->countCrossings(near->point_S - over, near->point_S + over) != 0;
 }
 
 StartHint toStartHint(const std::optional<Vec3>& hint_S) {

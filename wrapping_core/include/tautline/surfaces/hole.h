@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cmath>
+
 #include "tautline/types.h"
 
 namespace tautline {
@@ -25,6 +27,12 @@ public:
         const Vec3 crossing = a + a.z() / (a.z() - b.z()) * (b - a);
         if (!(crossing.head<2>().squaredNorm() < 1)) return 0;
         return isAbove ? -1 : 1;
+    }
+
+    /** Whether a point lies over or under the disc, by less than half of its radius. */
+    bool isBeside(const Vec3& p_S) const {
+        const Vec3 p = m_toUnitDisc * p_S;
+        return p.head<2>().squaredNorm() < 1 && std::abs(p.z()) < 0.5;
     }
 
     /** Where the straight line through A and B meets the plane of the disc; not finite if it runs along that. */
