@@ -7,8 +7,9 @@ What is asked:
 - PassOnSide: of all taut strings that turn by less than a full turn, the shortest one whose middle lies on that side:
   half way along the arc, or where a straight string is nearest to the surface. About a surface with an axis the part of
   the direction along the axis does not count. Where no taut string is there, nothing answers the hint.
-- PassNear: the taut string nearest to the point. (The scenes leave no doubt which.) None where even that one passes on
-  the opposite side of the body.
+- PassNear: the taut string nearest to the point, or another one on the same side: outward at its middle is outward at
+  the point, less than 90 degrees off. (The scenes leave no doubt which is the nearest.) None where even that one passes
+  on the opposite side of the body.
 - WindAround: the taut string that turns about the axis by the angle nearest to the hint's.
 - ThreadHole: the taut string that goes through the hole so many times; none, if it would lie on the ring in several
   stretches. */
@@ -137,6 +138,7 @@ private:
                 return calcDistanceToString(ways[i], m_radius, m_scene.A_S, m_scene.B_S, point);
             };
             if (toPoint(1 - wanted) < 2 * toPoint(wanted)) continue;
+            judgeByOutward(point);
             return finish(PassNear{point}, ways[wanted].length,
                           wanted == 0 ? "near the short way" : "near the long way", point);
         }
@@ -214,19 +216,24 @@ private:
         if (m_hasAxis) direction.z() = 0;
         return direction;
     }
-    /** Half way along what touches, or the surface point nearest to the nodes. */
+    /** Half way along what touches, or the surface point nearest to the straight string. */
     Vec3 findMiddle(const std::vector<Vec3>& nodes) const {
-        Vec3 lowest = nodes.front();
-        double least = kInfinity;
         std::vector<Vec3> touching;
         for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
             for (int k = 0; k < 20; ++k) {
                 const Vec3 p = nodes[i] + 0.05 * k * (nodes[i + 1] - nodes[i]);
-                const double height = m_surface->calcHeight(p);
-                if (height < least) least = height, lowest = p;
-                if (height < 1e-3 * m_surface->getSize()) touching.push_back(p);
+                if (m_surface->calcHeight(p) < 1e-3 * m_surface->getSize()) touching.push_back(p);
             }
-        return m_surface->findSurfacePoint(touching.empty() ? lowest : touching[touching.size() / 2]).p;
+        return touching.empty() ? findNearestPoint(*m_surface, nodes.front(), nodes.back())
+                                : m_surface->findSurfacePoint(touching[touching.size() / 2]).p;
+    }
+    Vec3 calcOutward(const Vec3& p) const {
+        return m_surface->calcFrame(m_surface->findSurfacePoint(p), Vec3(1, 2, 3)).N;
+    }
+    void judgeByOutward(const Vec3& point) {
+        m_scene.isAsAsked = [maker = *this, point](const std::vector<Vec3>& nodes) {
+            return maker.calcOutward(maker.findMiddle(nodes)).dot(maker.calcOutward(point)) >= 0;
+        };
     }
     void makeBodySide() {
         makeBody();
@@ -259,6 +266,7 @@ private:
                 isClear = isClear && (&other == &wanted || calcDistance(other, point) > 2 * distance);
             m_scene.isKnown = areSmooth(strings);
             if (m_scene.isKnown && !isClear) continue;
+            judgeByOutward(point);
             if (m_scene.kind == "sphere" && wanted.kind == TautString::Kind::OneArc && m_random.pick(4) == 0)
                 return finish(PassNear{-point}, std::nullopt, "near the far side", -point);
             return finish(PassNear{point}, wanted.length, strings.size() > 1 ? "near one of several" : "near the one",

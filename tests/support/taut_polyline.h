@@ -235,6 +235,31 @@ inline double findLowestSample(const Surface& surface, const Vec3& A, const Vec3
     return least;
 }
 
+/** The point of a convex surface that is nearest to the segment: steps along the surface towards it, from under its
+lowest place, which is another one where heights are not distances. */
+inline Vec3 findNearestPoint(const Surface& surface, const Vec3& A, const Vec3& B) {
+    const auto calcNearestOnSegment = [&](const Vec3& p) {
+        return Vec3(A + std::clamp((p - A).dot(B - A) / (B - A).squaredNorm(), 0.0, 1.0) * (B - A));
+    };
+    Vec3 lowest = A;
+    findLowestSample(surface, A, B, lowest);
+    Vec3 nearest = surface.findSurfacePoint(lowest).p;
+    double distance = (calcNearestOnSegment(nearest) - nearest).norm();
+    for (double part = 1; part > 1e-9;) {
+        const Vec3 step = calcNearestOnSegment(nearest) - nearest;
+        const Vec3 N = surface.calcFrame(surface.findSurfacePoint(nearest), Vec3(1, 2, 3)).N;
+        const Vec3 next = surface.findSurfacePoint(nearest + part * (step - N.dot(step) * N)).p;
+        const double reached = (calcNearestOnSegment(next) - next).norm();
+        if (reached < distance) {
+            nearest = next, distance = reached;
+            part = std::min(1.0, 2 * part);
+        } else {
+            part /= 2;
+        }
+    }
+    return nearest;
+}
+
 /** The string from A to B that falls taut from the course over one body in its frame S, made of so many springs. */
 inline TautString findTautStringOf(int springs, const Surface& surface, const std::vector<Vec3>& course) {
     constexpr double kAccuracy = 3e-6, kClear = -1e-7;  // the last in sizes
@@ -251,7 +276,7 @@ inline TautString findTautStringOf(int springs, const Surface& surface, const st
     if (stretches.empty() && height > kClear * surface.getSize() && string.length < (1 + 1e-6) * (B - A).norm()) {
         string.kind = TautString::Kind::Straight;
         string.length = (B - A).norm();
-        string.middle = surface.findSurfacePoint(lowest).p;
+        string.middle = findNearestPoint(surface, A, B);
         return string;
     }
     if (stretches.size() > 1) {

@@ -13,13 +13,15 @@ namespace {
 
 using Kind = RouteDeviation::Kind;
 
-/** PassNear says where outward is, PassOnSide where the middle is. */
+/** PassNear says where outward is. */
+bool isNearPoint(const PathElement& element, const ObstacleContact& contact) {
+    const Vec3 N = contact.isTouched ? calcMiddleNormal(*element.surface, contact) : contact.clearance.N;
+    return !(element.side_S.dot(N) < -kOnTheEdge);
+}
+
+/** PassOnSide says where the middle is. */
 bool isOnSide(const PathElement& element, const ObstacleContact& contact) {
     const Surface& surface = *element.surface;
-    if (std::holds_alternative<PassNear>(element.hint)) {
-        const Vec3 N = contact.isTouched ? calcMiddleNormal(surface, contact) : contact.clearance.N;
-        return !(element.side_S.dot(N) < -kOnTheEdge);
-    }
     const double onSide = contact.isTouched ? calcMiddleAlong(surface, contact, element.side_S)
                                             : element.side_S.dot(contact.clearance.C.p);
     return !(onSide < -kOnTheEdge * surface.getSize());
@@ -112,8 +114,12 @@ RouteDeviation findSideDeviation(const PosedProblem& scene, const PathSolution& 
             const bool isBetweenPoints =
                 scene.isPoint(path.segments[in].fromElement) && scene.isPoint(path.segments[out].toElement);
             if (!turnsAsOften(*winding, turning, isBetweenPoints)) deviation = {Kind::Winding, e};
-        } else if (element.side_S.allFinite() && !element.isAskedThroughHole && !isOnSide(element, contact)) {
-            deviation = {std::holds_alternative<PassNear>(element.hint) ? Kind::Near : Kind::Side, e};
+        } else if (!element.side_S.allFinite() || element.isAskedThroughHole) {
+            return;
+        } else if (std::holds_alternative<PassNear>(element.hint)) {
+            if (!isNearPoint(element, contact)) deviation = {Kind::Near, e};
+        } else if (!isOnSide(element, contact)) {
+            deviation = {Kind::Side, e};
         }
     });
     return deviation;
