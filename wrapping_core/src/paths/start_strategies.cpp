@@ -51,6 +51,35 @@ bool isAtRest(const StringFault& fault) {
     return fault.kind == Kind::Groove || fault.kind == Kind::TwoContacts || fault.kind == Kind::OutOfOrder;
 }
 
+/** Whether two obstacles meet near a place: steps to and fro between their surfaces come to where they do. */
+bool meet(const PosedProblem& scene, int e, int other, const Vec3& place_G) {
+    constexpr int kSteps = 8;
+    constexpr double kApart = 0.1;  // in sizes
+    if (!scene.isObstacle(other)) return false;
+    Vec3 p_G = place_G;
+    const auto goToSurface = [&](int element) {
+        const Pose& X_GS = scene.getPose(element);
+        const Vec3 from_G = p_G;
+        p_G = X_GS * scene.getSurface(element).findSurfacePoint(X_GS.shiftBack(from_G)).p;
+        return (p_G - from_G).norm();
+    };
+    double apart = kInfinity;
+    for (int i = 0; i < kSteps; ++i) {
+        goToSurface(other);
+        apart = goToSurface(e);
+    }
+    return apart < kApart * scene.getSurface(e).getSize();
+}
+
+/** Whether the string may have slipped off the groove between an obstacle and a neighbor, which a coarse band misses.
+ */
+bool mayHaveLeftGroove(const PosedProblem& scene, const Route& route, const PathSolution& path) {
+    const int e = findSideDeviation(scene, path).element;
+    if (e < 0 || route.waypoints[e].empty()) return false;
+    const Vec3& place_G = route.waypoints[e][route.waypoints[e].size() / 2];
+    return meet(scene, e, e - 1, place_G) || meet(scene, e, e + 1, place_G);
+}
+
 /** The first element from one on that has waypoints: the insertion at the latest. */
 int findNextWaypoint(const Route& route, int element) {
     while (route.waypoints[element].empty()) ++element;
@@ -244,6 +273,7 @@ void PathSearch::solveAlongBand(const Route& route, bool keepsSides, PathSolutio
         const Rank rank = freeBand(tightenBand(band, route, keepsSides, path), route, keepsSides, path);
         if (m_bestRank == Rank::Minimum) return;
         hasSlipped = rank == Rank::MinimumElsewhere && !isAtRest(m_band.findFault(m_scene->problem));
+        if (hasSlipped && !mayHaveLeftGroove(*m_scene, route, path)) return;
     }
     if (hasSlipped) return;
     // A band in which nothing is wrong may still slide, slower than was asked for.
