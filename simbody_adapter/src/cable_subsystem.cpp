@@ -85,8 +85,8 @@ namespace {
 
 bool haveSameOptions(const PathSolverOptions& a, const PathSolverOptions& b) {
     return a.pathErrorTolerance == b.pathErrorTolerance && a.maxIterations == b.maxIterations &&
-           a.allowsColdStart == b.allowsColdStart && a.geodesics.accuracy == b.geodesics.accuracy &&
-           a.geodesics.maxSteps == b.geodesics.maxSteps;
+           a.allowsColdStart == b.allowsColdStart && a.comparesWithCold == b.comparesWithCold &&
+           a.geodesics.accuracy == b.geodesics.accuracy && a.geodesics.maxSteps == b.geodesics.maxSteps;
 }
 
 }  // namespace

@@ -92,9 +92,10 @@ bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e,
 }
 
 /** A string through a ring whose ends pull it to one side lies on the tube there; on the far side there is another
-minimum. */
+minimum, and there may be one more where it lies round most of the tube. */
 bool liesWhereEndsPull(const PosedProblem& scene, int e, const ObstacleContact& contact, const RoutePlace& route) {
     if (!contact.isTouched) return true;
+    if (!(calcTurn(contact) < kPi)) return false;
     const Vec3 axis = scene.getSurface(e).getHole()->getAxis();
     const Pose& X_GS = scene.getPose(e);
     const auto calcAside = [&](const Vec3& v) { return Vec3(v - axis.dot(v) * axis).normalized(); };

@@ -39,6 +39,23 @@ bool isLaidFromPrevious(const PathSolution& path) {
     return path.report.strategy == StartStrategy::Continued || path.report.strategy == StartStrategy::AlongPrevious;
 }
 
+/** The first obstacle about which two paths run otherwise; -1 if about none. */
+int findDifference(const PathProblem& problem, const PathSolution& a, const PathSolution& b) {
+    constexpr double kApart = 1e-3;  // in sizes; of places on two paths
+    const auto& A = a.contacts;
+    const auto& B = b.contacts;
+    int first = -1;
+    for (int e = problem.getNumElements() - 1; e >= 0; --e) {
+        if (problem.getElement(e).isPoint()) continue;
+        const double apart = kApart * problem.getElement(e).surface->getSize();
+        const bool areTouched = A[e].isTouched && B[e].isTouched;
+        if (A[e].isTouched != B[e].isTouched) first = e;
+        if (areTouched && !((A[e].geodesic.P.x - B[e].geodesic.P.x).norm() < apart)) first = e;
+        if (areTouched && !(std::abs(A[e].start.length - B[e].start.length) < apart)) first = e;
+    }
+    return first;
+}
+
 }  // namespace
 
 /** What a solve needs besides its path, kept so that a warm one allocates nothing. */
@@ -50,6 +67,7 @@ struct PathSolver::Workspace {
     Vec3 origin_G = Vec3::Zero();  ///< of the frame of the working pose
     std::vector<EndHeight> endHeights;
     std::vector<double> startLengths;  ///< of the arcs by element, while contacts are kept
+    PathSolution cold;
 };
 
 PathSolver::PathSolver(const PathSolverOptions& options) : m_options(options) {
@@ -82,6 +100,21 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
     const bool isFound = updWorkspace().search.findPath({problem, pose}, isContinued, path);
     finish(problem, pose, isFound, path);
     moveToGround(path);
+    if (isContinued && m_options.comparesWithCold) compareWithCold(problem, givenPose, path);
+}
+
+/** Of a path that was continued, and runs as is asked: says whether the pose alone leads elsewhere, and at which
+obstacle (RouteDeviation::Kind::Continued). */
+void PathSolver::compareWithCold(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    if (path.status != PathStatus::Solved || !path.followsHints()) return;
+    PathSolution& cold = m_workspace->cold;
+    cold.contacts.clear();
+    solve(problem, pose, cold);
+    path.iterations += cold.iterations;
+    path.shots += cold.shots;
+    path.deviation = {};
+    const bool isSame = cold.status == path.status && std::abs(cold.length / path.length - 1) < kContinuousLength;
+    if (!isSame) path.deviation = {RouteDeviation::Kind::Continued, std::max(1, findDifference(problem, path, cold))};
 }
 
 void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose& givenPose, PathSolution& path) {

@@ -124,7 +124,7 @@ struct PathTracker::Workspace {
         : solver(options), continuer(withoutSearch(options)), follower(options) {}
 
     static PathSolverOptions withoutSearch(PathSolverOptions options) {
-        options.allowsColdStart = false;
+        options.allowsColdStart = options.comparesWithCold = false;
         return options;
     }
 

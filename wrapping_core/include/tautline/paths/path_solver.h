@@ -49,6 +49,7 @@ private:
     bool findKeptPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);
     void switchOffEnclosing(const PosedProblem& scene, PathSolution& path) const;
     void finish(const PathProblem& problem, const PathPose& pose, bool isFound, PathSolution& path) const;
+    void compareWithCold(const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
     PathSolverOptions m_options;
     std::unique_ptr<Workspace> m_workspace;
