@@ -316,8 +316,8 @@ TEST(PathTracker, WhatIsKnownNearbyOnlySavesTheSearch) {
     }
     std::printf("[measured] of %d minima %d were continued, %d differ from a search\n", minima, kept, others);
     EXPECT_GT(kept, minima / 2);
-    // Two neighbors of a chain may settle in several ways, of which a search finds now this, now that.
-    EXPECT_LE(others, kept / 250);
+    // None here, nor in 120,000 poses on the walks of other seeds; the rule is no proof.
+    EXPECT_LE(others, kept / 2000);
 }
 
 }  // namespace
