@@ -2,7 +2,7 @@
 # cmake -DROOT=<source tree> -P layering_test.cmake: fails where a source includes what stands above its layer, or does
 # not name its license. The layers, each of which knows only those before it:
 #
-#   geodesics -> surfaces -> paths (wrapping_core), simbody_adapter, models, plugin; tests and bench know all.
+#   meshes, geodesics -> surfaces -> paths (wrapping_core), simbody_adapter, models, plugin; tests and bench know all.
 cmake_minimum_required(VERSION 3.25)
 set(failures "")
 set(checked 0)
@@ -27,6 +27,7 @@ set(core wrapping_core)
 no_line(${core} MATCHES "SimTK::|${included}(Simbody|SimTK|tautline/(simbody|models)/)")
 no_line(${core}/include/tautline/geodesics MATCHES "${included}(tautline/)?(surfaces|paths)/")
 foreach(side include/tautline src)
+    no_line(${core}/${side}/meshes MATCHES "${included}(tautline/)?(geodesics|surfaces|paths)/")
     no_line(${core}/${side}/surfaces MATCHES "${included}(tautline/)?paths/")
 endforeach()
 no_line(simbody_adapter MATCHES "${included}tautline/models/")

@@ -167,7 +167,7 @@ TEST_P(SurfaceSensitivity, FirstAndSecondDerivativesAreDifferencesOfSolvedPaths)
     }
     std::printf("%-26s first derivatives %.1e, second %.1e\n", GetParam().name.c_str(), worstFirst, worstSecond);
     EXPECT_LT(worstFirst, 1e-8);
-    EXPECT_LT(worstSecond, 1e-6);
+    EXPECT_LT(worstSecond, std::max(1e-6, 0.01 * GetParam().differenceTolerance));  // on splines see calcDifference()
 }
 
 /** Translations commute, so their second derivatives are symmetric; rotations of one body do not: with dL = -M . w for

@@ -8,6 +8,7 @@ coordinates or curvatures are special. */
 #include <string>
 #include <vector>
 
+#include "support/triangle_meshes.h"
 #include "tautline/surfaces/capsule.h"
 #include "tautline/surfaces/cone.h"
 #include "tautline/surfaces/cylinder.h"
@@ -20,6 +21,7 @@ coordinates or curvatures are special. */
 #include "tautline/surfaces/patch_fit.h"
 #include "tautline/surfaces/plane.h"
 #include "tautline/surfaces/scaled_surface.h"
+#include "tautline/surfaces/solid_fit.h"
 #include "tautline/surfaces/sphere.h"
 #include "tautline/surfaces/surface_laws.h"
 #include "tautline/surfaces/torus.h"
@@ -196,6 +198,12 @@ inline ImplicitFunctionSurface makePear() {
     });
 }
 
+/** Of a mesh with facets of some 6 mm. */
+inline std::shared_ptr<const BSplineSolid> getBoneSolid() {
+    static const auto bone = std::make_shared<const BSplineSolid>(fitSolid(makeBoneMesh()).solid);
+    return bone;
+}
+
 /** Every surface of the project: both forms of the twins, and the ones with one form. */
 inline std::vector<SurfaceCase> makeSurfaceCases() {
     std::vector<SurfaceCase> cases;
@@ -248,6 +256,13 @@ inline std::vector<SurfaceCase> makeSurfaceCases() {
                      0.15,
                      Vec3(0.35, 0, 0),
                      0.2,
+                     1e-3});
+    cases.push_back({"BSplineSolid",
+                     getBoneSolid(),
+                     {Vec3(0, 0, 0.15), Vec3(0, 0, -0.15), Vec3(0.012, 0, 0)},
+                     0.15,
+                     Vec3::Zero(),
+                     0.02,
                      1e-3});
     cases.push_back({"FormulaPear", std::make_shared<ImplicitFunctionSurface>(makePear()), {}, 0.3, Vec3::Zero(), 0.3});
     cases.push_back({"ValueOnlyPear",

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "surfaces/cubic_bspline.h"
 #include "surfaces/shape_checks.h"
 
 namespace tautline {
@@ -76,12 +77,9 @@ BSplinePatch::Basis BSplinePatch::calcBasis(double coordinate, double min, doubl
     const double inverse = cells / (max - min), s = (coordinate - min) * inverse;
     const double inside = s > 0 ? std::min(s, double(cells)) : 0;  // NaN: 0
     const int cell = std::min(static_cast<int>(inside), cells - 1);
-    const double t = inside - cell, w = 1 - t;
     Basis basis;
     basis.first = cell;
-    basis.value.row(0) << w * w * w / 6, ((3 * t - 6) * t * t + 4) / 6, ((3 * w - 6) * w * w + 4) / 6, t * t * t / 6;
-    basis.value.row(1) << -0.5 * w * w, (1.5 * t - 2) * t, -(1.5 * w - 2) * w, 0.5 * t * t;
-    basis.value.row(2) << w, 3 * t - 2, 3 * w - 2, t;
+    basis.value = calcCubicBSplines(inside - cell);
     basis.value.row(1) *= inverse;
     basis.value.row(2) *= inverse * inverse;
     return basis;

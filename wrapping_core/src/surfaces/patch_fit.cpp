@@ -33,14 +33,9 @@ FitReport calcReport(const Patch& patch, const std::vector<Vec2>& uv, const std:
                      int numUnknowns) {
     FitReport report;
     report.numUnknowns = numUnknowns;
-    report.sumOfSquares = report.largest = 0;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        const double residual = (patch.calcParametric(uv[k], 0).x - points[k]).norm();
-        report.residuals.push_back(residual);
-        report.sumOfSquares += residual * residual;
-        report.largest = std::max(report.largest, residual);
-    }
-    report.rms = std::sqrt(report.sumOfSquares / static_cast<double>(points.size()));
+    for (std::size_t k = 0; k < points.size(); ++k)
+        report.residuals.push_back((patch.calcParametric(uv[k], 0).x - points[k]).norm());
+    report.sumUp();
     return report;
 }
 

@@ -2,18 +2,10 @@
 #pragma once
 /** Least-squares fits of patches to clouds of points (thesis Sec. 3.5, Fig. 3.9). */
 #include "tautline/surfaces/bspline_patch.h"
+#include "tautline/surfaces/fit_report.h"
 #include "tautline/surfaces/polynomial_patch.h"
 
 namespace tautline {
-
-/** How well a patch fits. */
-struct FitReport {
-    std::vector<double> residuals;  ///< distance of each point from the patch at its (u, v) [m]
-    double sumOfSquares = kNaN;     ///< of the residuals [m^2]
-    double rms = kNaN;              ///< [m]
-    double largest = kNaN;          ///< [m]
-    int numUnknowns = 0;            ///< coefficients per component
-};
 
 /** Which terms u^i v^j a polynomial has. */
 enum class PolynomialTerms {
