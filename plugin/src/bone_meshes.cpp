@@ -3,47 +3,15 @@
 
 #include <cstdlib>
 #include <map>
-#include <stdexcept>
 
 #include "name_pattern.h"
+#include "tautline/models/mesh_file.h"
+#include "tautline/models/model_error.h"
 #include "tautline/simbody/conversions.h"
 
 namespace tautline {
-namespace {
 
 namespace fs = std::filesystem;
-using Triangle = std::array<int, 3>;
-
-/** What a file holds, in its own coordinates. */
-struct FileMesh {
-    std::vector<Vec3> points;
-    std::vector<Triangle> triangles;
-};
-
-/** Faces of more than three corners as fans. */
-FileMesh readMesh(const fs::path& file) {
-    SimTK::PolygonalMesh polygons;
-    polygons.loadFile(file.string());
-    FileMesh mesh;
-    for (int i = 0; i < polygons.getNumVertices(); ++i) {
-        mesh.points.push_back(toEigen(polygons.getVertexPosition(i)));
-        if (!mesh.points.back().allFinite()) throw std::runtime_error("a point that is not finite");
-    }
-    for (int face = 0; face < polygons.getNumFaces(); ++face)
-        for (int corner = 2; corner < polygons.getNumVerticesForFace(face); ++corner)
-            mesh.triangles.push_back({polygons.getFaceVertex(face, 0), polygons.getFaceVertex(face, corner - 1),
-                                      polygons.getFaceVertex(face, corner)});
-    if (mesh.triangles.empty()) throw std::runtime_error("no faces");
-    return mesh;
-}
-
-/** The last line of what went wrong: Simbody's errors begin with where in its sources. */
-std::string getLastLine(std::string message) {
-    while (!message.empty() && message.back() == '\n') message.pop_back();
-    return message.substr(message.rfind('\n') + 1);
-}
-
-}  // namespace
 
 std::optional<fs::path> findMeshFile(const std::string& file, const fs::path& modelFile,
                                      const std::vector<fs::path>& folders) {
@@ -65,7 +33,7 @@ std::optional<fs::path> findMeshFile(const std::string& file, const fs::path& mo
 Bones loadBones(const models::ModelDescription& description, const models::BuiltModel& bodies,
                 const std::vector<fs::path>& folders) {
     Bones bones;
-    std::map<std::string, std::optional<FileMesh>> files;  // nothing: it cannot be drawn
+    std::map<std::string, std::optional<TriangleMesh>> files;  // nothing: it cannot be drawn
     std::vector<std::string> missing;
     for (const models::BodyMesh& bone : description.meshes) {
         const auto [entry, isNew] = files.try_emplace(bone.file);
@@ -73,10 +41,9 @@ Bones loadBones(const models::ModelDescription& description, const models::Built
             const auto path = findMeshFile(bone.file, description.fileName, folders);
             if (!path) missing.push_back(bone.file);
             if (path) try {
-                    entry->second = readMesh(*path);
-                } catch (const std::exception& error) {
-                    bones.notes.push_back("the mesh " + path->string() +
-                                          " cannot be read: " + getLastLine(error.what()));
+                    entry->second = models::readMeshFile(*path);
+                } catch (const models::ModelError& error) {
+                    bones.notes.push_back("a mesh is not drawn: " + std::string(error.what()));
                 }
         }
         if (!entry->second) continue;

@@ -24,7 +24,7 @@ struct Bones {
     std::vector<std::string> notes;
 };
 
-/** Reads .vtp, .obj and .stl files, with the scales that the model gives.
+/** Reads mesh files (mesh_file.h), with the scales that the model gives.
 @param bodies   of the description */
 Bones loadBones(const models::ModelDescription& description, const models::BuiltModel& bodies,
                 const std::vector<std::filesystem::path>& folders);

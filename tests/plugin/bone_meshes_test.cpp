@@ -89,7 +89,7 @@ TEST(BoneMeshes, MissingAndBrokenOnesAreNamedOnce) {
         loadBones(makeModel(folder, {"broken.vtp", "none.vtp", "odd.xyz", "none.vtp"}), ground.bodies, {});
     EXPECT_TRUE(bones.meshes.empty());
     ASSERT_EQ(bones.notes.size(), 3u);
-    EXPECT_EQ(bones.notes[0].rfind("the mesh " + (folder / "broken.vtp").string() + " cannot be read: ", 0), 0u)
+    EXPECT_EQ(bones.notes[0].rfind("a mesh is not drawn: " + (folder / "broken.vtp").string() + ":1: ", 0), 0u)
         << bones.notes[0];
     EXPECT_EQ(bones.notes[2],
               "1 of 3 bone meshes are not found and not drawn (--geometry FOLDER says where they are): none.vtp");
