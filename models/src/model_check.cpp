@@ -105,6 +105,7 @@ std::string getShapeName(const WrapObject& object) {
         const char* operator()(const TorusShape&) const { return "torus"; }
         const char* operator()(const ParaboloidShape&) const { return "paraboloid"; }
         const char* operator()(const EllipticTorusShape&) const { return "elliptic torus"; }
+        const char* operator()(const MeshShape&) const { return "mesh"; }
         const char* operator()(const ExtensionShape&) const { return "of an extension"; }
     };
     return std::visit(Namer(), object.shape);

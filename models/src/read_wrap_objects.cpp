@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <map>
 
 #include "tautline/error.h"
 #include "tautline/models/extensions.h"
+#include "tautline/surfaces/scaled_surface.h"
+#include "tautline/surfaces/solid_file.h"
 
 namespace tautline::models {
 namespace {
@@ -73,6 +76,22 @@ SphereShape readSphere(Element& element) {
     return {element.requirePositive("radius")};
 }
 
+/** Of a file that `tautline fit` has written, scaled as a Mesh is. It is looked for beside the model. */
+MeshShape readMesh(Element& element) {
+    const Element file = element.require("solid_file");
+    const Vec3 factors = element.getVec3Or("scale_factors", Vec3::Ones());
+    if (!(factors.minCoeff() > 0))
+        element.require("scale_factors").fail("scale_factors of " + element.describe() + " must be positive");
+    const std::filesystem::path model = element.updReading().model.fileName;
+    try {
+        const auto solid = std::make_shared<BSplineSolid>(readSolidFile(model.parent_path() / file.getText()));
+        if (factors == Vec3::Ones()) return {solid};
+        return {makeScaledSurface(solid, Mat3(factors.asDiagonal()))};
+    } catch (const InvalidInput& refused) {
+        file.fail(refused.what());
+    }
+}
+
 using ShapeReader = WrapShape (*)(Element&);
 
 /** A reader of one shape as one of any. */
@@ -87,7 +106,8 @@ const std::map<std::string, ShapeReader>& getShapeReaders() {
                                                              {"WrapEllipsoid", readAs<readEllipsoid>},
                                                              {"WrapTorus", readAs<readTorus>},
                                                              {"TautlineWrapParaboloid", readAs<readParaboloid>},
-                                                             {"TautlineWrapEllipticTorus", readAs<readEllipticTorus>}};
+                                                             {"TautlineWrapEllipticTorus", readAs<readEllipticTorus>},
+                                                             {"TautlineWrapMesh", readAs<readMesh>}};
     return kReaders;
 }
 

@@ -13,13 +13,14 @@ namespace {
 
 using SurfacePointer = std::shared_ptr<const Surface>;
 
-/** What an extension has made is as it is. */
-struct ExtensionMaker {
+/** What has been made already is as it is. */
+struct MadeSurface {
+    SurfacePointer operator()(const MeshShape& s) { return s.surface; }
     SurfacePointer operator()(const ExtensionShape& s) { return s.surface; }
 };
 
-struct ImplicitMaker : ExtensionMaker {
-    using ExtensionMaker::operator();
+struct ImplicitMaker : MadeSurface {
+    using MadeSurface::operator();
     SurfacePointer operator()(const CylinderShape& s) { return std::make_shared<Cylinder>(s.radius); }
     SurfacePointer operator()(const SphereShape& s) { return std::make_shared<Sphere>(s.radius); }
     SurfacePointer operator()(const EllipsoidShape& s) { return std::make_shared<Ellipsoid>(s.semiAxes); }
@@ -30,8 +31,8 @@ struct ImplicitMaker : ExtensionMaker {
     }
 };
 
-struct ParametricMaker : ExtensionMaker {
-    using ExtensionMaker::operator();
+struct ParametricMaker : MadeSurface {
+    using MadeSurface::operator();
     SurfacePointer operator()(const CylinderShape& s) { return std::make_shared<ParametricCylinder>(s.radius); }
     SurfacePointer operator()(const SphereShape& s) { return std::make_shared<ParametricSphere>(s.radius); }
     SurfacePointer operator()(const EllipsoidShape& s) { return std::make_shared<ParametricEllipsoid>(s.semiAxes); }

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "check_command.h"
+#include "fit_command.h"
 #include "run_command.h"
 #include "solve_command.h"
 #include "tautline/models/extensions.h"
@@ -29,11 +30,15 @@ int main(int argc, char** argv) {
     CLI::App* checkApp = app.add_subcommand(
         "check", "what is in a model file, what is supported, where its paths wrap, what differs from OpenSim");
     check.declare(*checkApp);
+    tautline::FitCommand fit;
+    CLI::App* fitApp = app.add_subcommand("fit", "a smooth surface from a mesh, for a model to wrap over");
+    fit.declare(*fitApp);
     CLI11_PARSE(app, argc, argv);
     try {
         for (const std::filesystem::path& extension : extensions) tautline::models::loadExtension(extension);
         const bool isTerminal = isatty(STDOUT_FILENO) == 1;
         if (solveApp->parsed()) return solve.run(std::cout, isTerminal);
+        if (fitApp->parsed()) return fit.run(std::cout);
         if (checkApp->parsed()) return check.run(std::cout, isTerminal);
         return run.run(std::cout, isTerminal);
     } catch (const std::exception& error) {

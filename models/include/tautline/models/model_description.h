@@ -161,12 +161,16 @@ struct EllipticTorusShape {
     double radialSemiAxis = 0.0;
     double axialSemiAxis = 0.0;
 };
+/** Fitted to a mesh, from a file, with the scale factors of the model. */
+struct MeshShape {
+    std::shared_ptr<const Surface> surface;
+};
 /** Of an extension: extensions.h. */
 struct ExtensionShape {
     std::shared_ptr<const Surface> surface;
 };
 using WrapShape = std::variant<CylinderShape, SphereShape, EllipsoidShape, TorusShape, ParaboloidShape,
-                               EllipticTorusShape, ExtensionShape>;
+                               EllipticTorusShape, MeshShape, ExtensionShape>;
 
 /** As which kind of surface geodesics are computed: f(p) = 0 or x(u, v). The paths are the same. */
 enum class SurfaceForm { Implicit, Parametric };

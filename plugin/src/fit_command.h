@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <ostream>
+
+namespace tautline {
+
+/** `tautline fit`: a smooth surface from a mesh, its file and the element for a model, and how far it is off. */
+struct FitCommand {
+    std::filesystem::path meshFile, outFile;
+    bool isBone = false;
+    double width = 0, spacing = 0;  ///< [m]; 0: chosen
+    double unit = 1;                ///< of the mesh's file [m]
+
+    /** Declares the options in a subcommand. */
+    void declare(CLI::App& app);
+
+    /** @return exit code 0. Throws std::exception for a mesh that cannot be read or fitted, or a file that cannot be
+    written. */
+    int run(std::ostream& out) const;
+};
+
+}  // namespace tautline

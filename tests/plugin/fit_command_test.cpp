@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+/** `tautline fit` as a user runs it, and a model with what it printed. */
+#include "program_support.h"
+#include "support/triangle_meshes.h"
+#include "tautline/surfaces/solid_file.h"
+
+namespace tautline::testing {
+namespace {
+
+/** The bone of the benchmarks, in millimeters. */
+std::filesystem::path writeBone() {
+    std::ostringstream text;
+    text.precision(9);
+    const TriangleMesh mesh = makeBoneMesh();
+    for (const Vec3& p : mesh.points)
+        text << "v " << 1000 * p.x() << ' ' << 1000 * p.y() << ' ' << 1000 * p.z() << '\n';
+    for (const auto& [a, b, c] : mesh.triangles) text << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+    return writeInput("bone.obj", text.str());
+}
+
+/** A spring from ground over the bone, which lies in ground, to a body that turns about z. */
+std::string makeModel(const std::string& element) {
+    return R"(<OpenSimDocument Version="40000"><Model name="over_a_bone"><gravity>0 -9.81 0</gravity>
+<Ground name="ground"><WrapObjectSet><objects>
+)" + element +
+           R"(</objects></WrapObjectSet></Ground>
+<BodySet><objects><Body name="rod"><mass>1</mass><mass_center>0 0 0</mass_center><inertia>1 1 1 0 0 0</inertia></Body>
+</objects></BodySet>
+<JointSet><objects><PinJoint name="pin"><socket_parent_frame>/ground</socket_parent_frame>
+<socket_child_frame>/bodyset/rod</socket_child_frame>
+<coordinates><Coordinate name="angle" /></coordinates></PinJoint></objects></JointSet>
+<ForceSet><objects><PathSpring name="spring"><GeometryPath><PathPointSet><objects>
+<PathPoint name="origin"><socket_parent_frame>/ground</socket_parent_frame><location>-0.01 -0.06 -0.03</location></PathPoint>
+<PathPoint name="insertion"><socket_parent_frame>/bodyset/rod</socket_parent_frame><location>-0.02 0.07 0.01</location></PathPoint>
+</objects></PathPointSet>
+<PathWrapSet><objects><PathWrap name="wrap"><wrap_object>tautline_bone</wrap_object>
+<tautline_hint>0.03 0 0</tautline_hint></PathWrap></objects></PathWrapSet>
+</GeometryPath>
+<resting_length>0.1</resting_length><stiffness>100</stiffness><dissipation>0</dissipation></PathSpring></objects></ForceSet>
+</Model></OpenSimDocument>)";
+}
+
+TEST(FitCommand, WritesASolidAndTheElementThatAModelNeeds) {
+    const std::filesystem::path bone = writeBone(), solid = bone.parent_path() / "tautline_bone.solid";
+    std::filesystem::remove(solid);
+    const Outcome fit =
+        runTautline("fit " + bone.string() + " --bone --unit 0.001 --width 0.003 --out " + solid.string());
+    ASSERT_EQ(fit.exitCode, 0) << fit.text;
+    for (const char* part : {"2562 points, 5120 triangles", "put in order: nothing; 1 parts", "width 3 mm, grid 4.5 mm",
+                             "off the mesh: ", "written: "})
+        EXPECT_TRUE(fit.has(part)) << part << "\n" << fit.text;
+    EXPECT_NEAR(readSolidFile(solid).getSize(), 0.019, 0.001);
+    const std::string element = fit.text.substr(fit.text.find("<TautlineWrapMesh"));
+    const auto model = writeInput("over_a_bone.osim", makeModel(element));
+    const Outcome check = runTautline("check " + model.string());
+    EXPECT_EQ(check.exitCode, 0) << check.text;
+    const std::filesystem::path folder = makeFolder("over_a_bone");
+    const Outcome run = runTautline("run " + model.string() + " --duration 0.05 --out " + folder.string());
+    EXPECT_EQ(run.exitCode, 0) << run.text;
+    const StorageTable paths = readStorage(folder / "paths.sto");
+    const std::vector<double>& first = paths.rows.front();
+    EXPECT_EQ(first[findColumn(paths, "/forceset/spring|contact.tautline_bone")], 1);
+    const double straight = Vec3(0.01, 0.13, 0.04).norm(), length = first[findColumn(paths, "/forceset/spring|length")];
+    EXPECT_GT(length, straight + 1e-4);
+    EXPECT_LT(length, straight + 0.02);
+}
+
+TEST(FitCommand, RefusesWhatItCannotFit) {
+    const std::filesystem::path bone = writeBone();
+    const std::string out = " --bone --out " + (bone.parent_path() / "tautline_none.solid").string();
+    const auto expectRefused = [&](const std::string& arguments, const std::string& message) {
+        const Outcome outcome = runTautline("fit " + arguments);
+        EXPECT_NE(outcome.exitCode, 0);
+        EXPECT_TRUE(outcome.has(message)) << outcome.text;
+    };
+    expectRefused("no_such.obj" + out, "no_such.obj: the file cannot be read");
+    expectRefused(writeInput("odd.xyz", "x").string() + out, "meshes are read from .vtp, .obj, .stl and .ply files");
+    expectRefused(bone.string() + out + " --width -1", "solid fit: width must be positive and finite, but is -1");
+    expectRefused(bone.string() + out + " --unit 0", "the unit of a mesh must be positive, but is 0");
+    expectRefused(bone.string() + " --bone --unit 0.001 --out " + ::testing::TempDir(), "the file cannot be written");
+    expectRefused(bone.string() + " --out x.solid", "--bone is required");
+}
+
+TEST(FitCommand, ModelsNameWhatIsWrongWithASolid) {
+    const auto expectRefused = [&](const std::string& element, const std::string& message) {
+        const Outcome outcome = runTautline("check " + writeInput("bad_bone.osim", makeModel(element)).string());
+        EXPECT_EQ(outcome.exitCode, 1);
+        EXPECT_TRUE(outcome.has(message)) << outcome.text;
+    };
+    const std::string begin = "<TautlineWrapMesh name=\"tautline_bone\">", end = "</TautlineWrapMesh>\n";
+    expectRefused(begin + end, "solid_file");
+    expectRefused(begin + "<solid_file>none.solid</solid_file>" + end, "none.solid: the file cannot be read");
+    writeInput("text.solid", "a bone\n");
+    expectRefused(begin + "<solid_file>tautline_text.solid</solid_file>" + end,
+                  "bad_bone.osim:3: " + (std::filesystem::path(::testing::TempDir()) / "tautline_text.solid").string() +
+                      ": no file of a solid");
+    expectRefused(begin + "<solid_file>tautline_text.solid</solid_file>\n<scale_factors>1 0 1</scale_factors>" + end,
+                  "bad_bone.osim:4: scale_factors of TautlineWrapMesh 'tautline_bone' must be positive");
+}
+
+}  // namespace
+}  // namespace tautline::testing
