@@ -10,6 +10,11 @@
 namespace tautline {
 namespace {
 
+/** Whether the place of a clearance lies between the segment's ends: Eqn. 6.3 puts D on the infinite line. */
+bool isOnSegment(const LineClearance& clearance, double length) {
+    return clearance.lineCoordinate >= 0 && clearance.lineCoordinate <= length;
+}
+
 /** The clearance of a line of which nothing is known yet: Newton from the segment's lowest point, at s. */
 void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, double s,
                         LineClearance& clearance) {
@@ -26,8 +31,7 @@ void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S
     surface.findLineClearance(A_S, e_S, clearance);
     if (isOutside != (clearance.distance > 0)) clearance.found = false;  // another side of the surface
     // A segment that is below the surface between its ends is not judged by a place beyond them.
-    const bool isOnSegment = clearance.lineCoordinate >= 0 && clearance.lineCoordinate <= length;
-    if (!isOutside && !isOnSegment) clearance.found = false;
+    if (!isOutside && !isOnSegment(clearance, length)) clearance.found = false;
 }
 
 /** A line that has sunk so deep that it has no critical point on the kept side any longer, beyond the centres of
@@ -52,20 +56,13 @@ void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double
     clearance.lineCoordinate = s;
 }
 
-/** Eqn. 6.3 puts D on the infinite line: past an end, the height of that end is what counts. But a segment that is
-below the surface between its ends is judged there. */
-void judgeOnSegment(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, LineClearance& clearance) {
-    const double s = std::clamp(clearance.lineCoordinate, 0.0, length);
-    if (s == clearance.lineCoordinate) return;
-    if (!(clearance.distance > 0)) {
-        const double lowest = surface.findLowestPoint(A_S, e_S, length);
-        if (surface.calcHeight(A_S + lowest * e_S) < 0) {
-            findFreshClearance(surface, A_S, e_S, length, lowest, clearance);
-            if (!clearance.found) takeHeight(surface, A_S, e_S, lowest, clearance);
-            return;
-        }
-    }
-    takeHeight(surface, A_S, e_S, s, clearance);
+/** Whether the line is in the surface beyond an end, which says nothing of the segment, and the segment dips below it
+between its ends. */
+bool isSunkElsewhere(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
+                     const LineClearance& clearance) {
+    if (clearance.distance > 0 || isOnSegment(clearance, length)) return false;
+    const double lowest = surface.findLowestPoint(A_S, e_S, length);
+    return surface.calcHeight(A_S + lowest * e_S) < 0;
 }
 
 }  // namespace
@@ -80,13 +77,14 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
     kept.C = clearance.keptC, kept.N = clearance.keptN;
     const bool knowsSide = kept.N.allFinite() && kept.C.p.allFinite();
     if (knowsSide) surface.findLineClearance(A_S, e_S, kept);
-    if (!kept.found) {
+    if (!kept.found || isSunkElsewhere(surface, A_S, e_S, length, kept)) {
         const double lowest = surface.findLowestPoint(A_S, e_S, length);
         findFreshClearance(surface, A_S, e_S, length, lowest, kept);
         if (knowsSide) staySunk(surface, A_S, e_S, length, kept);
         if (!kept.found) takeHeight(surface, A_S, e_S, lowest, kept);
     }
-    if (kept.found) judgeOnSegment(surface, A_S, e_S, length, kept);
+    if (kept.found && !isOnSegment(kept, length))  // past an end, the height of that end is what counts
+        takeHeight(surface, A_S, e_S, std::clamp(kept.lineCoordinate, 0.0, length), kept);
     const bool isClear = kept.distance > 0 || !kept.keptN.allFinite();
     if (isClear) kept.keptC = kept.C, kept.keptN = kept.N;
     clearance = kept;
@@ -107,8 +105,7 @@ void takeNearerClearance(const Surface& surface, const Pose& X_GS, const Vec3& A
     LineClearance nearer = clearance;
     nearer.found = false;
     findFreshClearance(surface, A_S, e_S, length, lowest.s, nearer);
-    const bool isOnSegment = nearer.lineCoordinate >= 0 && nearer.lineCoordinate <= length;
-    if (!nearer.found || !isOnSegment) takeHeight(surface, A_S, e_S, lowest.s, nearer);
+    if (!nearer.found || !isOnSegment(nearer, length)) takeHeight(surface, A_S, e_S, lowest.s, nearer);
     if (!(nearer.distance < clearance.distance)) return;
     if (nearer.distance > 0) nearer.keptC = nearer.C, nearer.keptN = nearer.N;
     clearance = nearer;
