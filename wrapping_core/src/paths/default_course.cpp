@@ -52,8 +52,7 @@ bool turnsAsRoute(const PosedProblem& scene, const PathSolution& path, int e, in
     const double turning =
         calcTurning(scene.getSurface(e), path.contacts[e], X_GS.shiftBack(before.A), X_GS.shiftBack(after.B));
     // Where the neighbors stand elsewhere than the waypoints, half a turn says too little.
-    const bool isBetweenPoints = scene.isPoint(before.fromElement) && scene.isPoint(after.toElement);
-    return std::abs(turning - asked) < (isBetweenPoints ? 1 : 0.5) * kPi;
+    return std::abs(turning - asked) < (scene.isBetweenPoints(path, in, out) ? 1 : 0.5) * kPi;
 }
 
 /** Whether an endless body lies alone between the points beside it, with no more than a side asked for. */
@@ -82,9 +81,7 @@ bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e,
                      const RoutePlace& route) {
     const ObstacleContact& contact = path.contacts[e];
     if (contact.isTouched && !(calcTurn(contact) < 2 * kPi)) return false;
-    const bool isBetweenPoints =
-        scene.isPoint(path.segments[in].fromElement) && scene.isPoint(path.segments[out].toElement);
-    if (contact.isTouched && !isBetweenPoints) return false;
+    if (contact.isTouched && !scene.isBetweenPoints(path, in, out)) return false;
     const Vec3 N =
         contact.isTouched ? calcMiddleNormal(scene.getSurface(e), contact).normalized() : contact.clearance.N;
     const bool isShort = !contact.isTouched || contact.geodesic.P.t.dot(contact.geodesic.Q.t) > kCosineOfShortArc;

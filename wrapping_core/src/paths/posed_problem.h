@@ -12,6 +12,10 @@ struct PosedProblem {
 
     int size() const { return problem.getNumElements(); }
     bool isPoint(int e) const { return problem.getElement(e).isPoint(); }
+    /** Whether an obstacle lies between the fixed points beside it. @param in, out   the segments before and after */
+    bool isBetweenPoints(const PathSolution& path, int in, int out) const {
+        return isPoint(path.segments[in].fromElement) && isPoint(path.segments[out].toElement);
+    }
     bool isObstacle(int e) const { return !isPoint(e) && pose.hasElement(e); }
     const Surface& getSurface(int e) const { return *problem.getElement(e).surface; }
     const Pose& getPose(int e) const { return pose.X_GE[e]; }

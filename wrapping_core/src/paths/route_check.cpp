@@ -111,9 +111,7 @@ RouteDeviation findSideDeviation(const PosedProblem& scene, const PathSolution& 
             const Pose& X_GS = scene.getPose(e);
             const double turning = calcTurning(*element.surface, contact, X_GS.shiftBack(path.segments[in].A),
                                                X_GS.shiftBack(path.segments[out].B));
-            const bool isBetweenPoints =
-                scene.isPoint(path.segments[in].fromElement) && scene.isPoint(path.segments[out].toElement);
-            if (!turnsAsOften(*winding, turning, isBetweenPoints)) deviation = {Kind::Winding, e};
+            if (!turnsAsOften(*winding, turning, scene.isBetweenPoints(path, in, out))) deviation = {Kind::Winding, e};
         } else if (!element.side_S.allFinite() || element.isAskedThroughHole) {
             return;
         } else if (std::holds_alternative<PassNear>(element.hint)) {
