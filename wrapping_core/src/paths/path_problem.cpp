@@ -82,6 +82,7 @@ int PathProblem::addObstacle(std::string name, std::shared_ptr<const Surface> su
     obstacle.surface = std::move(surface);
     obstacle.hasHole = obstacle.surface->getHole().has_value();
     obstacle.isEndless = isEndlessAlongZ(*obstacle.surface);
+    m_hasObstacles = true;
     m_hasHoles = m_hasHoles || obstacle.hasHole;
     const double size = obstacle.surface->getSize();
     m_hasUsableSizes = m_hasUsableSizes && std::isnormal(size * size);

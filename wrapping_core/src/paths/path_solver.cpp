@@ -39,21 +39,25 @@ bool isLaidFromPrevious(const PathSolution& path) {
     return path.report.strategy == StartStrategy::Continued || path.report.strategy == StartStrategy::AlongPrevious;
 }
 
-/** The first obstacle about which two paths run otherwise; -1 if about none. */
-int findDifference(const PathProblem& problem, const PathSolution& a, const PathSolution& b) {
-    constexpr double kApart = 1e-3;  // in sizes; of places on two paths
-    const auto& A = a.contacts;
-    const auto& B = b.contacts;
-    int first = -1;
-    for (int e = problem.getNumElements() - 1; e >= 0; --e) {
+/** How far apart two paths run about an obstacle: the larger of the distances of their first contact points and of the
+lengths of their arcs, in sizes; infinite where only one touches. */
+double calcDifference(const PathElement& obstacle, const ObstacleContact& a, const ObstacleContact& b) {
+    if (a.isTouched != b.isTouched) return kInfinity;
+    if (!a.isTouched) return 0;
+    const double apart = (a.geodesic.P.x - b.geodesic.P.x).norm();
+    return std::max(apart, std::abs(a.start.length - b.start.length)) / obstacle.surface->getSize();
+}
+
+/** The obstacle about which two paths of a problem with obstacles run farthest apart. */
+int findLargestDifference(const PathProblem& problem, const PathSolution& a, const PathSolution& b) {
+    int largest = -1;
+    double difference = -1;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
         if (problem.getElement(e).isPoint()) continue;
-        const double apart = kApart * problem.getElement(e).surface->getSize();
-        const bool areTouched = A[e].isTouched && B[e].isTouched;
-        if (A[e].isTouched != B[e].isTouched) first = e;
-        if (areTouched && !((A[e].geodesic.P.x - B[e].geodesic.P.x).norm() < apart)) first = e;
-        if (areTouched && !(std::abs(A[e].start.length - B[e].start.length) < apart)) first = e;
+        const double here = calcDifference(problem.getElement(e), a.contacts[e], b.contacts[e]);
+        if (here > difference) difference = here, largest = e;
     }
-    return first;
+    return largest;
 }
 
 }  // namespace
@@ -92,7 +96,7 @@ void PathSolver::solve(const PathProblem& problem, const PathPose& givenPose, Pa
             "path solver: the path to continue has ", path.contacts.size(), " elements, the problem ",
             problem.getNumElements());
     if (!begin(problem, givenPose, path)) return;
-    if (!hasObstacles(problem)) return layPointPath(problem, givenPose, path);
+    if (!problem.hasObstacles()) return layPointPath(problem, givenPose, path);
     const PathPose& pose = calcWorkingPose(problem, givenPose);
     const bool isContinued = !path.isEmpty();
     if (!isContinued) path.contacts.assign(problem.getNumElements(), ObstacleContact());
@@ -114,7 +118,7 @@ void PathSolver::compareWithCold(const PathProblem& problem, const PathPose& pos
     path.shots += cold.shots;
     path.deviation = {};
     const bool isSame = cold.status == path.status && std::abs(cold.length / path.length - 1) < kContinuousLength;
-    if (!isSame) path.deviation = {RouteDeviation::Kind::Continued, std::max(1, findDifference(problem, path, cold))};
+    if (!isSame) path.deviation = {RouteDeviation::Kind::Continued, findLargestDifference(problem, path, cold)};
 }
 
 void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose& givenPose, PathSolution& path) {
@@ -122,7 +126,7 @@ void PathSolver::solveKeepingContacts(const PathProblem& problem, const PathPose
     require(static_cast<int>(path.contacts.size()) == problem.getNumElements(),
             "path solver: solveKeepingContacts needs a path that was solved before");
     if (!begin(problem, givenPose, path)) return;
-    if (!hasObstacles(problem)) return layPointPath(problem, givenPose, path);
+    if (!problem.hasObstacles()) return layPointPath(problem, givenPose, path);
     const PathPose& pose = calcWorkingPose(problem, givenPose);
     const PosedProblem scene{problem, pose};
     switchOffEnclosing(scene, path);

@@ -8,7 +8,6 @@
 #include "paths/contact_settling.h"
 #include "paths/default_course.h"
 #include "paths/path_following.h"
-#include "paths/point_path.h"
 #include "paths/pose_motion.h"
 #include "paths/posed_problem.h"
 #include "paths/threading.h"
@@ -146,7 +145,7 @@ const PathSolverOptions& PathTracker::getOptions() const {
 
 void PathTracker::solve(const PathProblem& problem, TrackedPath& path) {
     if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
-    const bool isRoomKept = !hasObstacles(problem) && path.solution.contacts.size() == path.pose.X_GE.size();
+    const bool isRoomKept = !problem.hasObstacles() && path.solution.contacts.size() == path.pose.X_GE.size();
     if (!isRoomKept) path.solution.contacts.clear();
     m_workspace->solver.solve(problem, path.pose, path.solution);
 }
@@ -156,7 +155,7 @@ void PathTracker::solveFrom(const PathProblem& problem, const TrackedPath& start
     const auto isMinimum = [](const PathSolution& solution) {
         return solution.status == PathStatus::Solved || solution.status == PathStatus::EndInside;
     };
-    if (hasObstacles(problem) && !start.solution.isEmpty() && isMinimum(start.solution)) {
+    if (problem.hasObstacles() && !start.solution.isEmpty() && isMinimum(start.solution)) {
         path.solution = start.solution;
         m_workspace->continuer.solve(problem, path.pose, path.solution);
         const bool isAsAsked = path.solution.deviation.kind == RouteDeviation::Kind::None;
@@ -168,7 +167,7 @@ void PathTracker::solveFrom(const PathProblem& problem, const TrackedPath& start
 void PathTracker::trackFreely(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion,
                               TrackedPath& path) {
     if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
-    if (start.solution.isEmpty() || !hasObstacles(problem)) return solve(problem, path);
+    if (start.solution.isEmpty() || !problem.hasObstacles()) return solve(problem, path);
     const bool isFar = isGoodStart(start) && turnsFar(problem, start, motion, path);
     // Wound up as the motion says, even where contacts change on the way.
     if (!isFar || !follow(problem, start, motion, 1, path)) path.solution = start.solution;
@@ -178,7 +177,7 @@ void PathTracker::trackFreely(const PathProblem& problem, const TrackedPath& sta
 void PathTracker::track(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion,
                         TrackedPath& path) {
     if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
-    if (start.solution.isEmpty() || !hasObstacles(problem)) return solve(problem, path);
+    if (start.solution.isEmpty() || !problem.hasObstacles()) return solve(problem, path);
     PathSolution& solution = path.solution;
     const bool canFollow = isGoodStart(start), isFar = canFollow && turnsFar(problem, start, motion, path);
     if (isFar && follow(problem, start, motion, 1, path)) return;

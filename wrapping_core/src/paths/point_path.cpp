@@ -3,12 +3,6 @@
 
 namespace tautline {
 
-bool hasObstacles(const PathProblem& problem) {
-    for (int e = 0; e < problem.getNumElements(); ++e)
-        if (!problem.getElement(e).isPoint()) return true;
-    return false;
-}
-
 void layPointPath(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     path.contacts.resize(problem.getNumElements());
     path.length = path.pathError = 0;

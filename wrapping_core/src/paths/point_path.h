@@ -5,9 +5,6 @@
 
 namespace tautline {
 
-/** Whether a path has obstacles, in whatever pose. */
-bool hasObstacles(const PathProblem& problem);
-
 /** The path of a problem without obstacles, straight from point to point: what a solve would find, at a hundredth of
 the cost. @param path   its counts and reports are those of a solve that has begun */
 void layPointPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);

@@ -44,6 +44,9 @@ public:
     /** False where the square of an obstacle's size is 0 or infinite in double precision: no path is found there. */
     bool hasUsableSizes() const { return m_hasUsableSizes; }
 
+    /** Whether there are obstacles, in whatever pose. */
+    bool hasObstacles() const { return m_hasObstacles; }
+
     /** True if a hint says of any obstacle how the path is to run about it. */
     bool hasHints() const { return m_numHints > 0; }
 
@@ -56,6 +59,7 @@ public:
 private:
     std::vector<PathElement> m_elements;
     bool m_hasUsableSizes = true;
+    bool m_hasObstacles = false;
     bool m_hasHoles = false;
     int m_numHints = 0;
 };
