@@ -4,6 +4,7 @@
 #include <iostream>
 #include <map>
 
+#include "command_options.h"
 #include "motion_file.h"
 #include "support/model_sweep.h"
 #include "tautline/models/osim_reader.h"
@@ -60,8 +61,7 @@ int main(int argc, char** argv) {
     bool printsAll = false;
     app.add_option("MODEL", files, "model files (.osim)")->required();
     app.add_option("--steps", steps, "of each coordinate over its range")->capture_default_str();
-    app.add_option("--pose", base, "value of a coordinate while others are swept, NAME=VALUE; repeatable")
-        ->allow_extra_args(false);
+    addRepeatable(app, "--pose", base, "value of a coordinate while others are swept, NAME=VALUE");
     app.add_flag("--all", printsAll, "list jumps with a cause in OpenSim's rules or in the string, too");
     CLI11_PARSE(app, argc, argv);
     bool isClean = true;

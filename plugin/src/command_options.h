@@ -9,8 +9,8 @@
 namespace tautline {
 
 /** An option with one value that may be given again and again. */
-inline void addRepeatable(CLI::App& app, const std::string& name, std::vector<std::string>& values,
-                          const std::string& description) {
+template <class Value>
+void addRepeatable(CLI::App& app, const std::string& name, std::vector<Value>& values, const std::string& description) {
     app.add_option(name, values, description + "; repeatable")->take_all()->allow_extra_args(false);
 }
 

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "check_command.h"
+#include "command_options.h"
 #include "fit_command.h"
 #include "run_command.h"
 #include "solve_command.h"
@@ -17,8 +18,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.fallthrough();  // what all commands have in common may stand behind any of them
     std::vector<std::filesystem::path> extensions;
-    app.add_option("--load", extensions, "shared library with surfaces and force laws for model files; repeatable")
-        ->allow_extra_args(false);
+    tautline::addRepeatable(app, "--load", extensions, "shared library with surfaces and force laws for model files");
     tautline::RunCommand run;
     CLI::App* runApp = app.add_subcommand("run", "simulate a model file forward under gravity");
     run.declare(*runApp);

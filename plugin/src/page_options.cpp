@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "command_options.h"
 #include "mesh_thinning.h"
 #include "model_report.h"
 #include "storage_file.h"
@@ -30,11 +31,8 @@ void thinSurfaces(std::vector<ReportPage::Mesh>& surfaces) {
 
 void PageOptions::declare(CLI::App& app, const std::string& what) {
     app.add_option("--report", report, "write a page (.html) to look at " + what);
-    app.add_option(
-           "--geometry", geometry,
-           "folder of bone meshes (.vtp, .obj, .stl), searched after the model's own and its Geometry; repeatable")
-        ->take_all()
-        ->allow_extra_args(false);
+    addRepeatable(app, "--geometry", geometry,
+                  "folder of bone meshes (.vtp, .obj, .stl), searched after the model's own and its Geometry");
 }
 
 Bones loadBones(const PageOptions& options, const models::ModelDescription& description,
