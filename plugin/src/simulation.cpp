@@ -312,9 +312,7 @@ void startPaths(const ModelSystem& model, State& state, SimulationResult& result
         const IteratedPath iterated = iteratePath(problem, pose, path.start);
         recordIterations(path, iterated, result.starts);
         PathSolution solution = makePathSolution(iterated.start);
-        PathSolverOptions options = path.cable.getOptions();
-        options.allowsColdStart = false;  // that would be another path
-        PathSolver solver(options);
+        PathSolver solver(path.cable.getOptions().withoutSearch());  // which might find another path
         solver.solveKeepingContacts(problem, pose, solution);
         if (solution.status == PathStatus::Solved) solver.solve(problem, pose, solution);
         if (solution.status != PathStatus::Solved)

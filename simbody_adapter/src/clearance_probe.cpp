@@ -32,22 +32,19 @@ const StraightSegment& findPassingSegment(const PathSolution& path, int element)
 /** Continues from where the last path without the obstacle was, else from where the string is now; anew only if
 there was none so far, since that costs milliseconds. */
 bool ClearanceProbe::solveWithout(const PathPose& without, const PathSolution& path) {
-    PathSolverOptions options = m_cable.getOptions();
-    options.allowsColdStart = false;
-    const auto continueFrom = [&](const PathSolution& start) {
-        if (start.isEmpty() && !options.allowsColdStart) return false;
+    const PathSolverOptions options = m_cable.getOptions();
+    const auto solveFrom = [&](const PathSolution& start, const PathSolverOptions& how) {
         PathSolution found = start;
-        PathSolver(options).solve(m_cable.getPathProblem(), without, found);
+        PathSolver(how).solve(m_cable.getPathProblem(), without, found);
         if (found.status != PathStatus::Solved) return false;
         m_loose = found;
         return true;
     };
-    if (continueFrom(m_loose)) return true;
+    if (!m_loose.isEmpty() && solveFrom(m_loose, options.withoutSearch())) return true;
     PathSolution released = path;
     released.contacts[m_obstacle] = ObstacleContact();
-    if (continueFrom(released)) return true;
-    options.allowsColdStart = m_loose.isEmpty();
-    return options.allowsColdStart && continueFrom(PathSolution());
+    if (solveFrom(released, options.withoutSearch())) return true;
+    return m_loose.isEmpty() && solveFrom(PathSolution(), options);
 }
 
 LineClearance ClearanceProbe::calcClearance(const SimTK::State& state) {

@@ -20,10 +20,11 @@ double calcVertexHeight(double time) {
 
 class MovingParaboloid {
 public:
-    MovingParaboloid()
-        : model(readOsimFile(TAUTLINE_SOURCE_DIR "/models/paraboloid.osim")),
-          state(model.makeDefaultState()),
-          probe(cable(), CableElementIndex(1)) {}
+    explicit MovingParaboloid(const PathSolverOptions& options = {})
+        : model(readOsimFile(TAUTLINE_SOURCE_DIR "/models/paraboloid.osim")), probe(cable(), CableElementIndex(1)) {
+        Cable(cable()).setOptions(options);
+        state = model.makeDefaultState();
+    }
     const Cable& cable() const { return model.getSprings().at(0).cable; }
 
     LineClearance calcClearance(double time) {
@@ -104,6 +105,14 @@ TEST(ClearanceProbe, IsSmoothThroughTouchdown) {
     }
     std::cout << "largest fourth difference quotient " << largest << "\n";
     EXPECT_LT(largest, 20) << "the curvature of d jumps by no more than 2e-5";
+}
+
+TEST(ClearanceProbe, FindsTheSameOfACableThatComparesWithColdSolves) {
+    PathSolverOptions compared;
+    compared.comparesWithCold = true;
+    MovingParaboloid plain, moving(compared);
+    for (double time : {1.2, 1.6, 2.0})
+        EXPECT_NEAR(moving.calcClearance(time).distance, plain.calcClearance(time).distance, 1e-13) << time;
 }
 
 }  // namespace

@@ -5,6 +5,12 @@
 
 namespace tautline {
 
+PathSolverOptions PathSolverOptions::withoutSearch() const {
+    PathSolverOptions options = *this;
+    options.allowsColdStart = options.comparesWithCold = false;
+    return options;
+}
+
 void PathSolverOptions::validate() const {
     require(pathErrorTolerance > 0 && pathErrorTolerance <= 0.1,
             "path solver: pathErrorTolerance must be in (0, 0.1], but is ", pathErrorTolerance);

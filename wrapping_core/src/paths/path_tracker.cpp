@@ -120,12 +120,7 @@ std::vector<PathEvent> listEvents(const PathProblem& problem, const PathSolution
 
 struct PathTracker::Workspace {
     explicit Workspace(const PathSolverOptions& options)
-        : solver(options), continuer(withoutSearch(options)), follower(options) {}
-
-    static PathSolverOptions withoutSearch(PathSolverOptions options) {
-        options.allowsColdStart = options.comparesWithCold = false;
-        return options;
-    }
+        : solver(options), continuer(options.withoutSearch()), follower(options) {}
 
     PathSolver solver;
     PathSolver continuer;  ///< finds nothing anew

@@ -14,6 +14,9 @@ struct PathSolverOptions {
     bool comparesWithCold = false;
     GeodesicOptions geodesics;
 
+    /** These options for a solve that only continues the path it is given and finds nothing anew. */
+    PathSolverOptions withoutSearch() const;
+
     /** @throws InvalidInput naming the option that is out of its range. */
     void validate() const;
 };
