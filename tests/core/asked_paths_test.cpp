@@ -63,6 +63,13 @@ TEST(AskedPaths, APointInAThinRingIsInItsHole) {
     runScenes(Asking::Hole, 1, 102663);
 }
 
+// Symptom until 2026-11-27: solved beside the wrong side of a capsule in silence, since the place under an end of the
+// string was the foot of the steepest descent, not the nearest point.
+TEST(AskedPaths, ALiftedStringIsJudgedWhereItsEndIsNearest) {
+    runScenes(Asking::Side, 1, 100555);
+    runScenes(Asking::Side, 1, 101716);
+}
+
 TEST(LongAskedPaths, RunNearThePoint) {
     runScenes(Asking::Near, 10000, 100001);
 }

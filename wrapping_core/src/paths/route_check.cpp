@@ -19,11 +19,46 @@ bool isNearPoint(const PathElement& element, const ObstacleContact& contact) {
     return !(element.side_S.dot(N) < -kOnTheEdge);
 }
 
-/** PassOnSide says where the middle is. */
-bool isOnSide(const PathElement& element, const ObstacleContact& contact) {
+/** The point of a convex surface nearest to D, which is outside, from a point near it: Newton's method on the squared
+distance, while that falls. */
+Vec3 findNearestPoint(const Surface& surface, const Vec3& D, SurfacePoint C) {
+    constexpr int kMaxSteps = 20;
+    for (int i = 0; i < kMaxSteps; ++i) {
+        const Vec3 r = D - C.p;
+        const DarbouxFrame frame = surface.calcFrame(C, r);
+        const Vec2 r_tB(r.dot(frame.t), r.dot(frame.B));
+        if (!(r_tB.norm() > kSamePlace * surface.getSize())) break;
+        // Of half the squared distance over the tangent plane (t, B): slope -r_tB, curvature 1 - h II.
+        const double h = r.dot(frame.N);
+        Eigen::Matrix2d M;
+        M << 1 - h * frame.kappaN, h * frame.tauG, h * frame.tauG, 1 - h * frame.kappaB;
+        if (!(M(0, 0) > 0 && M.determinant() > 0)) break;
+        const Vec2 step = M.inverse() * r_tB;
+        const SurfacePoint next = surface.calcDisplacedPoint(C, step[0] * frame.t + step[1] * frame.B);
+        if (!((D - next.p).norm() < r.norm())) break;
+        C = next;
+    }
+    return C.p;
+}
+
+/** Where a lifted string comes nearest to a surface: past an end of the segment the place that is watched is the foot
+of the steepest descent from that end, which from afar leads elsewhere. */
+Vec3 findPlaceBeside(const Surface& surface, const Pose& X_GS, const StraightSegment& line,
+                     const LineClearance& clearance) {
+    if (!surface.isConvex()) return clearance.C.p;
+    const Vec3 A_S = X_GS.shiftBack(line.A), B_S = X_GS.shiftBack(line.B);
+    const double length = (B_S - A_S).norm();
+    if (!(length > 0)) return clearance.C.p;
+    return findNearestPoint(surface, A_S + clearance.lineCoordinate / length * (B_S - A_S), clearance.C);
+}
+
+/** PassOnSide says where the middle is. @param line   that comes to the obstacle */
+bool isOnSide(const PathElement& element, const Pose& X_GS, const StraightSegment& line,
+              const ObstacleContact& contact) {
     const Surface& surface = *element.surface;
-    const double onSide = contact.isTouched ? calcMiddleAlong(surface, contact, element.side_S)
-                                            : element.side_S.dot(contact.clearance.C.p);
+    const double onSide = contact.isTouched
+                              ? calcMiddleAlong(surface, contact, element.side_S)
+                              : element.side_S.dot(findPlaceBeside(surface, X_GS, line, contact.clearance));
     return !(onSide < -kOnTheEdge * surface.getSize());
 }
 
@@ -116,7 +151,7 @@ RouteDeviation findSideDeviation(const PosedProblem& scene, const PathSolution& 
             return;
         } else if (std::holds_alternative<PassNear>(element.hint)) {
             if (!isNearPoint(element, contact)) deviation = {Kind::Near, e};
-        } else if (!isOnSide(element, contact)) {
+        } else if (!isOnSide(element, scene.getPose(e), path.segments[in], contact)) {
             deviation = {Kind::Side, e};
         }
     });
