@@ -180,6 +180,59 @@ TEST(BSplinePatch, IsTwiceContinuouslyDifferentiable) {
 }
 
 /** Derivatives are those of the position, inside and beyond the edges. */
+/** Heights that both kinds of patch have exactly, with noise, and every eighth point far off, most of them to one side.
+ */
+std::vector<Vec3> makeNoisyHeights(double noise, std::vector<int>& sound) {
+    std::mt19937 random(20261127);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 800; ++i) {
+        const double x = 0.1 * uniform(random), y = 0.15 * uniform(random);
+        const double off = i % 8 > 0 ? noise * normal(random) : 0.02 + 0.02 * uniform(random);
+        points.push_back({x, y, 0.3 * x - 2 * x * x + 3 * x * y * y + off});
+        if (i % 8 > 0) sound.push_back(i);
+    }
+    return points;
+}
+
+TEST(PatchFit, LeavesOutWhatLiesFarOff) {
+    std::vector<int> sound, kept;
+    std::vector<Vec3> points = makeNoisyHeights(0, sound);
+    const PolynomialFit polynomial = fitPolynomialHeightsRobustly(points, 3, 3, PolynomialTerms::TotalDegree, &kept);
+    EXPECT_EQ(kept, sound);
+    EXPECT_EQ(polynomial.report.leftOut, 100);
+    EXPECT_LT(polynomial.report.largest, 1e-15);
+    const BSplineFit spline = fitBSplineHeightsRobustly(points, 5, 5, &kept);
+    EXPECT_EQ(kept, sound);
+    EXPECT_LT(spline.report.largest, 1e-14);
+    sound.clear();
+    points = makeNoisyHeights(1e-4, sound);
+    const PolynomialFit noisy = fitPolynomialHeightsRobustly(points, 3, 3, PolynomialTerms::TotalDegree, &kept);
+    EXPECT_NEAR(noisy.report.leftOut, 100, 5);
+    EXPECT_NEAR(noisy.report.rms, 1e-4, 1e-5);
+    EXPECT_GT(fitPolynomialHeights(points, 3, 3, PolynomialTerms::TotalDegree).report.rms, 50e-4);
+}
+
+TEST(PatchShape, HeightPatchesAreMadeFromTheirHeights) {
+    std::vector<int> sound;
+    const std::vector<Vec3> points = makeNoisyHeights(1e-3, sound);
+    const PolynomialPatch polynomial = fitPolynomialHeights(points, 4, 3, PolynomialTerms::Tensor).patch;
+    const BSplinePatch spline = fitBSplineHeights(points, 6, 5).patch;
+    Eigen::MatrixXd p(5, 4), heights(6, 5);
+    for (int i = 0; i < 5; ++i)
+        for (int j = 0; j < 4; ++j) p(i, j) = polynomial.getCoefficients()(2, 4 * i + j);
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 5; ++j) heights(i, j) = spline.getControlPoints()(2, 5 * i + j);
+    const auto again = PolynomialPatch::makeScaledHeightPatch(polynomial.getDomain(), p);
+    const auto splineAgain = BSplinePatch::makeHeightPatch(spline.getDomain(), heights);
+    for (const Vec3& point : points) {
+        const Vec2 uv = point.head<2>();
+        EXPECT_LT((again.calcParametric(uv, 0).x - polynomial.calcParametric(uv, 0).x).norm(), 1e-14);
+        EXPECT_LT((splineAgain.calcParametric(uv, 0).x - spline.calcParametric(uv, 0).x).norm(), 1e-14);
+    }
+}
+
 TEST(PatchShape, DerivativesAreDifferencesEverywhere) {
     const PolynomialPatch polynomial = testing::makePolynomialPatch(6);
     const BSplinePatch spline = testing::makeShellPatch();

@@ -167,7 +167,8 @@ TEST_P(SurfaceSensitivity, FirstAndSecondDerivativesAreDifferencesOfSolvedPaths)
     }
     std::printf("%-26s first derivatives %.1e, second %.1e\n", GetParam().name.c_str(), worstFirst, worstSecond);
     EXPECT_LT(worstFirst, 1e-8);
-    EXPECT_LT(worstSecond, std::max(1e-6, 0.01 * GetParam().differenceTolerance));  // on splines see calcDifference()
+    // Arcs on a solid cross knots in every few millimeters, so that every stencil has one: see calcDifference().
+    EXPECT_LT(worstSecond, GetParam().name == "BSplineSolid" ? 1e-5 : 1e-6);
 }
 
 /** Translations commute, so their second derivatives are symmetric; rotations of one body do not: with dL = -M . w for

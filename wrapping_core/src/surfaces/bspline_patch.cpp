@@ -68,6 +68,22 @@ BSplinePatch BSplinePatch::interpolateHeights(const ParameterDomain& domain, con
     return interpolate(domain, numU, numV, points, true, normalSign);
 }
 
+/** x = u and y = v where the control points lie at the Greville abscissae, equal steps beyond the domain included. */
+BSplinePatch BSplinePatch::makeHeightPatch(const ParameterDomain& domain, const Eigen::MatrixXd& heights,
+                                           double normalSign) {
+    const int numU = static_cast<int>(heights.rows()), numV = static_cast<int>(heights.cols());
+    require(numU >= 4 && numV >= 4, "B-spline patch: needs at least 4 control points in each direction, got ", numU,
+            " by ", numV);
+    const Vec2 cell = (domain.max - domain.min).cwiseQuotient(Vec2(numU - 3, numV - 3));
+    Eigen::Matrix3Xd controls(3, numU * numV);
+    for (int i = 0; i < numU; ++i)
+        for (int j = 0; j < numV; ++j) {
+            const Vec2 uv = domain.min + cell.cwiseProduct(Vec2(i - 1, j - 1));
+            controls.col(i * numV + j) = Vec3(uv[0], uv[1], heights(i, j));
+        }
+    return BSplinePatch(domain, numU, numV, controls, true, normalSign);
+}
+
 std::string BSplinePatch::getDescription() const {
     return describeShape("B-spline patch(", m_numU, " x ", m_numV, " control points)");
 }

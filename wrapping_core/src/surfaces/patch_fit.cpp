@@ -3,6 +3,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <numeric>
 
 #include "surfaces/shape_checks.h"
 
@@ -83,14 +84,50 @@ BSplineFit fitBSpline(const std::vector<Vec2>& uv, const std::vector<Vec3>& poin
         for (int i = 0; i < 4; ++i)
             design.row(k).segment<4>((inU.first + i) * numV + inV.first) = inU.value(0, i) * inV.value.row(0);
     }
-    Eigen::Matrix3Xd controls = design.completeOrthogonalDecomposition().solve(stack(points)).transpose();
-    const Vec2 cell = (domain.max - domain.min).cwiseQuotient(Vec2(numU - 3, numV - 3));
-    for (int i = 0; isHeightPatch && i < numU; ++i)  // x = u, y = v exactly, also where the data leave gaps
-        for (int j = 0; j < numV; ++j)
-            controls.col(i * numV + j).head<2>() = domain.min + cell.cwiseProduct(Vec2(i - 1, j - 1));
-    BSplinePatch patch(domain, numU, numV, controls, isHeightPatch, normalSign);
+    const Eigen::Matrix3Xd controls = design.completeOrthogonalDecomposition().solve(stack(points)).transpose();
+    // x = u, y = v exactly, also where the data leave gaps.
+    const Eigen::RowVectorXd heights = controls.row(2);
+    BSplinePatch patch = isHeightPatch
+                             ? BSplinePatch::makeHeightPatch(
+                                   domain, Eigen::MatrixXd(heights.reshaped<Eigen::RowMajor>(numU, numV)), normalSign)
+                             : BSplinePatch(domain, numU, numV, controls, false, normalSign);
     FitReport report = calcReport(patch, uv, points, numU * numV);
     return {std::move(patch), std::move(report)};
+}
+
+double findMedian(std::vector<double> numbers) {
+    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return *middle;
+}
+
+/** @param fit   of points, to a patch of heights */
+template <class Fit>
+auto fitRobustly(const std::vector<Vec3>& points, std::vector<int>* keptNumbers, Fit&& fit) {
+    constexpr int kMostRounds = 50;       // the points that are left mostly stay the same after five
+    constexpr double kDeviations = 3.5;   // of a normal distribution one point in 2000 is farther out
+    constexpr double kOfMedian = 1.4826;  // standard deviation of a normal distribution over its median residual
+    constexpr double kRounding = 1e-9;    // of the domain's diagonal: less is no deviation
+    std::vector<int> kept(points.size()), next;
+    std::iota(kept.begin(), kept.end(), 0);
+    for (int round = 0;; ++round) {
+        std::vector<Vec3> used;
+        for (const int i : kept) used.push_back(points[static_cast<std::size_t>(i)]);
+        auto result = fit(used);
+        const FitReport all = calcReport(result.patch, takeHeads(points), points, 0);
+        const ParameterDomain& domain = result.patch.getDomain();
+        const double limit =
+            std::max(kDeviations * kOfMedian * findMedian(all.residuals), kRounding * (domain.max - domain.min).norm());
+        next.clear();
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (all.residuals[i] <= limit) next.push_back(static_cast<int>(i));
+        if (next == kept || round == kMostRounds) {
+            result.report.leftOut = static_cast<int>(points.size() - kept.size());
+            if (keptNumbers) *keptNumbers = std::move(kept);
+            return result;
+        }
+        kept.swap(next);
+    }
 }
 
 }  // namespace
@@ -112,6 +149,17 @@ PolynomialFit fitPolynomialHeights(const std::vector<Vec3>& points, int orderU, 
                                    double normalSign) {
     const std::vector<Vec2> uv = takeHeads(points);
     return fitPolynomial(uv, points, orderU, orderV, terms, findDomain(uv), true, normalSign);
+}
+
+PolynomialFit fitPolynomialHeightsRobustly(const std::vector<Vec3>& points, int orderU, int orderV,
+                                           PolynomialTerms terms, std::vector<int>* kept) {
+    return fitRobustly(
+        points, kept, [&](const std::vector<Vec3>& used) { return fitPolynomialHeights(used, orderU, orderV, terms); });
+}
+
+BSplineFit fitBSplineHeightsRobustly(const std::vector<Vec3>& points, int numU, int numV, std::vector<int>* kept) {
+    return fitRobustly(points, kept,
+                       [&](const std::vector<Vec3>& used) { return fitBSplineHeights(used, numU, numV); });
 }
 
 BSplineFit fitBSplinePatch(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int numU, int numV,

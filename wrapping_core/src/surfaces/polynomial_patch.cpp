@@ -54,9 +54,17 @@ PolynomialPatch PolynomialPatch::makeHeightPatch(const ParameterDomain& domain, 
     };
     const Eigen::MatrixXd scaled =
         calcExpansion(n, middle[0], half[0]).transpose() * p * calcExpansion(m, middle[1], half[1]);
+    return makeScaledHeightPatch(domain, scaled, normalSign);
+}
+
+PolynomialPatch PolynomialPatch::makeScaledHeightPatch(const ParameterDomain& domain, const Eigen::MatrixXd& p,
+                                                       double normalSign) {
+    const int n = static_cast<int>(p.rows()) - 1, m = static_cast<int>(p.cols()) - 1;
+    require(n >= 1 && m >= 1, "polynomial patch: needs orders of at least 1, got ", n, " and ", m);
+    const Vec2 middle = 0.5 * (domain.min + domain.max), half = 0.5 * (domain.max - domain.min);
     Eigen::Matrix3Xd coefficients = Eigen::Matrix3Xd::Zero(3, (n + 1) * (m + 1));
     for (int i = 0; i <= n; ++i)
-        for (int j = 0; j <= m; ++j) coefficients(2, i * (m + 1) + j) = scaled(i, j);
+        for (int j = 0; j <= m; ++j) coefficients(2, i * (m + 1) + j) = p(i, j);
     coefficients(0, 0) = middle[0], coefficients(0, m + 1) = half[0];
     coefficients(1, 0) = middle[1], coefficients(1, 1) = half[1];
     return PolynomialPatch(domain, n, m, coefficients, true, normalSign);

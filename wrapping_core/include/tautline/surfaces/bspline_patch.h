@@ -26,6 +26,12 @@ public:
     static BSplinePatch interpolateHeights(const ParameterDomain& domain, const Eigen::MatrixXd& heights,
                                            double normalSign = 1);
 
+    /** The height patch whose control points have these heights. @param heights   numU x numV [m] */
+    static BSplinePatch makeHeightPatch(const ParameterDomain& domain, const Eigen::MatrixXd& heights,
+                                        double normalSign = 1);
+
+    int getNumU() const { return m_numU; }
+    int getNumV() const { return m_numV; }
     const Eigen::Matrix3Xd& getControlPoints() const { return m_controlPoints; }
     std::string getDescription() const override;
     void calcPartials(const Vec2& uv, PatchPartials& partials) const;

@@ -13,6 +13,7 @@ struct FitReport {
     double rms = kNaN;              ///< [m]
     double largest = kNaN;          ///< [m]
     int worst = -1;                 ///< the number of the point with the largest
+    int leftOut = 0;                ///< points that a robust fit has taken for outliers; they have no residual
     int numUnknowns = 0;            ///< coefficients per component
 
     /** Sets the sums from the residuals. */

@@ -39,6 +39,15 @@ BSplineFit fitBSplinePatch(const std::vector<Vec2>& uv, const std::vector<Vec3>&
                            const ParameterDomain& domain, double normalSign = 1);
 BSplineFit fitBSplineHeights(const std::vector<Vec3>& points, int numU, int numV, double normalSign = 1);
 
+/** The same, with points left out that lie off the patch by more than 3.5 standard deviations, as the median of the
+residuals tells them (Rousseeuw and Leroy, "Robust regression and outlier detection", 1987): the fit is repeated until
+it has the points that it leaves. Less than half of the points may be outliers. The domain is that of the others.
+@param kept   the numbers of the points that are left, to which the residuals belong; may be null */
+PolynomialFit fitPolynomialHeightsRobustly(const std::vector<Vec3>& points, int orderU, int orderV,
+                                           PolynomialTerms terms, std::vector<int>* kept = nullptr);
+BSplineFit fitBSplineHeightsRobustly(const std::vector<Vec3>& points, int numU, int numV,
+                                     std::vector<int>* kept = nullptr);
+
 /** The rectangle that holds all coordinates. */
 ParameterDomain findDomain(const std::vector<Vec2>& uv);
 

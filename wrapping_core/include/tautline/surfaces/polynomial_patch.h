@@ -23,6 +23,10 @@ public:
     static PolynomialPatch makeHeightPatch(const ParameterDomain& domain, const Eigen::MatrixXd& p,
                                            double normalSign = 1);
 
+    /** The same in scaled u and v, as the constructor has them, which keeps the digits of high orders. */
+    static PolynomialPatch makeScaledHeightPatch(const ParameterDomain& domain, const Eigen::MatrixXd& p,
+                                                 double normalSign = 1);
+
     int getOrderU() const { return m_orderU; }
     int getOrderV() const { return m_orderV; }
     const Eigen::Matrix3Xd& getCoefficients() const { return m_coefficients; }
