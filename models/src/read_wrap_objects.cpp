@@ -3,16 +3,20 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
 #include "tautline/error.h"
 #include "tautline/models/extensions.h"
+#include "tautline/surfaces/patch_fit.h"
 #include "tautline/surfaces/scaled_surface.h"
 #include "tautline/surfaces/solid_file.h"
 
 namespace tautline::models {
 namespace {
+
+constexpr int kMostCounts = 1000;  ///< control points of a patch along a side
 
 Quadrant readQuadrant(Element& element) {
     static const std::map<std::string, Quadrant> kQuadrants{
@@ -92,6 +96,44 @@ MeshShape readMesh(Element& element) {
     }
 }
 
+/** Two whole numbers. */
+std::array<int, 2> readCounts(const Element& element) {
+    const std::vector<double> numbers = element.getNumbers(2);
+    for (const double number : numbers)
+        if (!(number >= 1 && number <= kMostCounts && number == std::floor(number)))
+            element.fail(element.describe() + " are " + element.getText() + ", not whole numbers from 1 to " +
+                         std::to_string(kMostCounts));
+    return {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+}
+
+/** As many as there are rows and columns, row by row. */
+Eigen::MatrixXd readHeights(const Element& element, int rows, int columns) {
+    const std::vector<double> numbers = element.getNumbers(static_cast<std::size_t>(rows) * columns);
+    Eigen::MatrixXd heights(rows, columns);
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) heights(i, j) = numbers[static_cast<std::size_t>(i * columns + j)];
+    return heights;
+}
+
+/** Heights over the xy plane of the wrap object: a polynomial in coordinates scaled to [-1, 1], or B-splines. */
+MeshShape readPatch(Element& element) {
+    const Element heights = element.require("heights"), orders = element.find("orders"),
+                  controls = element.find("control_points");
+    const std::vector<double> limits = element.require("domain").getNumbers(4);
+    const ParameterDomain domain{Vec2(limits[0], limits[2]), Vec2(limits[1], limits[3])};
+    if (bool(orders) == bool(controls)) element.fail(element.describe() + " has either orders or control_points");
+    try {
+        const auto [numU, numV] = readCounts(orders ? orders : controls);
+        if (controls)
+            return {std::make_shared<BSplinePatch>(
+                BSplinePatch::makeHeightPatch(domain, readHeights(heights, numU, numV)))};
+        return {std::make_shared<PolynomialPatch>(
+            PolynomialPatch::makeScaledHeightPatch(domain, readHeights(heights, numU + 1, numV + 1)))};
+    } catch (const InvalidInput& refused) {
+        element.fail(refused.what());
+    }
+}
+
 using ShapeReader = WrapShape (*)(Element&);
 
 /** A reader of one shape as one of any. */
@@ -107,7 +149,8 @@ const std::map<std::string, ShapeReader>& getShapeReaders() {
                                                              {"WrapTorus", readAs<readTorus>},
                                                              {"TautlineWrapParaboloid", readAs<readParaboloid>},
                                                              {"TautlineWrapEllipticTorus", readAs<readEllipticTorus>},
-                                                             {"TautlineWrapMesh", readAs<readMesh>}};
+                                                             {"TautlineWrapMesh", readAs<readMesh>},
+                                                             {"TautlineWrapPatch", readAs<readPatch>}};
     return kReaders;
 }
 

@@ -3,6 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <ostream>
+#include <string>
+#include <vector>
+
+#include "tautline/meshes/triangle_mesh.h"
 
 namespace tautline {
 
@@ -11,6 +15,9 @@ struct FitCommand {
     std::filesystem::path meshFile, outFile;
     bool isBone = false;
     double width = 0, spacing = 0;  ///< [m]; 0: chosen
+    std::string patch;              ///< kind: an order, or numbers of control points such as 8x6; empty: a bone
+    std::vector<double> toward;     ///< direction that the patch faces; empty: found
+    std::vector<double> box;        ///< that holds the patch: least and greatest x, y, z [m]; empty: all of the mesh
     double unit = 1;                ///< of the mesh's file [m]
 
     /** Declares the options in a subcommand. */
@@ -19,6 +26,10 @@ struct FitCommand {
     /** @return exit code 0. Throws std::exception for a mesh that cannot be read or fitted, or a file that cannot be
     written. */
     int run(std::ostream& out) const;
+
+private:
+    void fitBone(const TriangleMesh& mesh, std::ostream& out) const;
+    void fitPatch(const TriangleMesh& mesh, std::ostream& out) const;
 };
 
 }  // namespace tautline

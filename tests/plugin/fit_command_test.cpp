@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** `tautline fit` as a user runs it, and a model with what it printed. */
 #include "program_support.h"
+#include "support/shared_data.h"
 #include "support/triangle_meshes.h"
 #include "tautline/surfaces/solid_file.h"
 
@@ -19,7 +20,7 @@ std::filesystem::path writeBone() {
 }
 
 /** A spring from ground over the bone, which lies in ground, to a body that turns about z. */
-std::string makeModel(const std::string& element) {
+std::string makeModel(const std::string& element, const std::string& hint = "0.03 0 0") {
     return R"(<OpenSimDocument Version="40000"><Model name="over_a_bone"><gravity>0 -9.81 0</gravity>
 <Ground name="ground"><WrapObjectSet><objects>
 )" + element +
@@ -34,7 +35,8 @@ std::string makeModel(const std::string& element) {
 <PathPoint name="insertion"><socket_parent_frame>/bodyset/rod</socket_parent_frame><location>-0.02 0.07 0.01</location></PathPoint>
 </objects></PathPointSet>
 <PathWrapSet><objects><PathWrap name="wrap"><wrap_object>tautline_bone</wrap_object>
-<tautline_hint>0.03 0 0</tautline_hint></PathWrap></objects></PathWrapSet>
+<tautline_hint>)" +
+           hint + R"(</tautline_hint></PathWrap></objects></PathWrapSet>
 </GeometryPath>
 <resting_length>0.1</resting_length><stiffness>100</stiffness><dissipation>0</dissipation></PathSpring></objects></ForceSet>
 </Model></OpenSimDocument>)";
@@ -78,7 +80,66 @@ TEST(FitCommand, RefusesWhatItCannotFit) {
     expectRefused(bone.string() + out + " --width -1", "solid fit: width must be positive and finite, but is -1");
     expectRefused(bone.string() + out + " --unit 0", "the unit of a mesh must be positive, but is 0");
     expectRefused(bone.string() + " --bone --unit 0.001 --out " + ::testing::TempDir(), "the file cannot be written");
-    expectRefused(bone.string() + " --out x.solid", "--bone is required");
+    expectRefused(bone.string() + " --out x.solid", "fit: --bone or --patch KIND says what to fit");
+    expectRefused(bone.string() + " --bone", "fit: --bone needs --out FILE for the solid");
+    expectRefused(bone.string() + " --bone --patch 5", "excludes");
+    expectRefused(bone.string() + " --patch 5by6", "such as 8x6, but is '5by6'");
+    expectRefused(bone.string() + " --patch 21", "orders must be in [1, 20], but are 21 and 21");
+    expectRefused(bone.string() + " --patch 5 --toward 0 0 0", "the direction that it faces must not be zero");
+    expectRefused(bone.string() + " --patch 5 --box 5 6 5 6 5 6", "no triangle of the mesh lies in the box");
+}
+
+/** The side of the bone that faces +x, with either kind of patch, in a model. */
+TEST(FitCommand, PrintsAPatchThatAModelWrapsOver) {
+    const std::filesystem::path bone = writeBone();
+    for (const char* kind : {"6", "6x12"}) {
+        const Outcome fit = runTautline("fit " + bone.string() + " --unit 0.001 --patch " + kind +
+                                        " --toward 1 0 0 --box 0 0.1 -0.1 0.1 -0.08 0.08");
+        ASSERT_EQ(fit.exitCode, 0) << fit.text;
+        EXPECT_TRUE(fit.has("fitted to: ") && fit.has("outliers left out")) << fit.text;
+        double rms = 0;
+        const std::size_t at = fit.text.find("off the points: ");
+        ASSERT_EQ(std::sscanf(fit.text.c_str() + at, "off the points: %lf mm rms", &rms), 1) << fit.text;
+        EXPECT_LT(rms, 0.2) << fit.text;
+        std::string element = fit.text.substr(fit.text.find("<TautlineWrapPatch"));
+        EXPECT_NE(element.find("name=\"tautline_bone\""), std::string::npos);
+        const auto model = writeInput("over_a_patch.osim", makeModel(element, "0 0 0.03"));  // above it
+        const std::filesystem::path folder = makeFolder("over_a_patch");
+        const Outcome run = runTautline("run " + model.string() + " --duration 0.05 --out " + folder.string());
+        EXPECT_EQ(run.exitCode, 0) << run.text;
+        const StorageTable paths = readStorage(folder / "paths.sto");
+        const std::vector<double>& first = paths.rows.front();
+        EXPECT_EQ(first[findColumn(paths, "/forceset/spring|contact.tautline_bone")], 1) << kind;
+    }
+}
+
+TEST(FitCommand, ModelsNameWhatIsWrongWithAPatch) {
+    const auto expectRefused = [&](const std::string& content, const std::string& message) {
+        const std::string element = "<TautlineWrapPatch name=\"tautline_bone\">" + content + "</TautlineWrapPatch>\n";
+        const Outcome outcome = runTautline("check " + writeInput("bad_patch.osim", makeModel(element)).string());
+        EXPECT_EQ(outcome.exitCode, 1);
+        EXPECT_TRUE(outcome.has("bad_patch.osim:3: ") && outcome.has(message)) << outcome.text;
+    };
+    const std::string domain = "<domain>0 1 0 1</domain>";
+    expectRefused(domain, "heights");
+    expectRefused(domain + "<heights>0 0 0 0</heights>", "has either orders or control_points");
+    expectRefused(domain + "<heights>0 0 0 0</heights><orders>1 1.5</orders>", "not whole numbers from 1 to 1000");
+    expectRefused(domain + "<heights>0 0 0</heights><orders>1 1</orders>", "heights");
+    expectRefused("<domain>0 0 0 1</domain><heights>0 0 0 0</heights><orders>1 1</orders>",
+                  "domain of u must be finite and not empty");
+    expectRefused(domain + "<heights>0 0 0 0</heights><control_points>2 2</control_points>",
+                  "needs at least 4 control points");
+}
+
+/** As the thesis has it in Sec. 8.4, Fig. 8.6: of fifth order. Points of the ribs are that far off any smooth sheet. */
+TEST(DataFitCommand, FitsAPatchToTheRightSideOfTheBack) {
+    TAUTLINE_SKIP_WITHOUT_SHARED(shared);
+    const Outcome fit = runTautline("fit " + (shared / "data/opensim/geometry/ribs.vtp").string() +
+                                    " --patch 5 --toward -1 0 0.5 --box -0.3 -0.03 -0.35 -0.05 0.01 1");
+    ASSERT_EQ(fit.exitCode, 0) << fit.text;
+    double rms = 0;
+    ASSERT_EQ(std::sscanf(fit.text.c_str() + fit.text.find("off the points: "), "off the points: %lf mm rms", &rms), 1);
+    EXPECT_NEAR(rms, 2.8, 0.05) << fit.text;
 }
 
 TEST(FitCommand, ModelsNameWhatIsWrongWithASolid) {

@@ -161,7 +161,7 @@ struct EllipticTorusShape {
     double radialSemiAxis = 0.0;
     double axialSemiAxis = 0.0;
 };
-/** Fitted to a mesh, from a file, with the scale factors of the model. */
+/** Fitted to a mesh: a solid from a file, with the scale factors of the model, or a patch. */
 struct MeshShape {
     std::shared_ptr<const Surface> surface;
 };
