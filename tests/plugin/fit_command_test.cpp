@@ -140,6 +140,18 @@ TEST(DataFitCommand, FitsAPatchToTheRightSideOfTheBack) {
     double rms = 0;
     ASSERT_EQ(std::sscanf(fit.text.c_str() + fit.text.find("off the points: "), "off the points: %lf mm rms", &rms), 1);
     EXPECT_NEAR(rms, 2.8, 0.05) << fit.text;
+    // The example is what the command prints, to seven digits.
+    const auto findHeights = [](const std::string& text) {
+        std::istringstream words(text.substr(text.find("<heights>") + 9));
+        std::vector<double> heights;
+        for (double height; words >> height;) heights.push_back(height);
+        return heights;
+    };
+    const std::vector<double> printed = findHeights(fit.text),
+                              shown = findHeights(readAll(TAUTLINE_SOURCE_DIR "/models/latissimus.osim"));
+    ASSERT_EQ(printed.size(), 36u);
+    ASSERT_EQ(shown.size(), 36u);
+    for (std::size_t i = 0; i < printed.size(); ++i) EXPECT_NEAR(printed[i], shown[i], 1e-8);
 }
 
 TEST(FitCommand, ModelsNameWhatIsWrongWithASolid) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The simulations of thesis Sec. 8.2 and 8.3 as the program runs them. */
+/** The simulations of thesis Sec. 8.2 to 8.4 as the program runs them. */
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -337,6 +337,45 @@ TEST(ThesisFourSurfaces, StartIsWrittenObstacleByObstacle) {
     EXPECT_EQ(std::count(run.result.starts.begin(), run.result.starts.end(), '\n'), 1 + 6 * 5);
     EXPECT_NE(run.result.starts.find("/forceset/string,5,over_cylinder,"), std::string::npos);
     EXPECT_EQ(run.result.starts.find("/forceset/string,6"), std::string::npos);
+}
+
+// --- 8.4 -----------------------------------------------------------------------------------------------------------
+
+/** Means over the ten paths of the muscle (Fig. 8.8), for each time. */
+std::vector<double> calcMean(const SimulatedModel& run, const std::string& quantity) {
+    constexpr int kPaths = 10;
+    std::vector<double> mean;
+    for (int i = 1; i <= kPaths; ++i) {
+        const std::string label = "/forceset/latissimus_" + std::to_string(i) + "|" + quantity;
+        const std::vector<double> values = SimulatedModel::get(run.result.paths, label);
+        mean.resize(values.size());
+        for (std::size_t k = 0; k < values.size(); ++k) mean[k] += values[k];
+    }
+    for (double& value : mean) value /= kPaths;
+    return mean;
+}
+
+TEST(ThesisLatissimus, LengthAndRateGoSmoothlyOverTheRibs) {
+    const double h = 0.02;
+    const SimulatedModel run("latissimus", makeOptions(5, h, 1e-3));
+    const std::vector<double> length = calcMean(run, "length"), rate = calcMean(run, "rate");
+    for (const double share : calcMean(run, "contact.ribs")) EXPECT_EQ(share, 1);  // all paths, all the time
+    ASSERT_EQ(length.size(), 251u);
+    EXPECT_GT(length.back() - length.front(), 0.04);
+    double largest = 0;
+    for (std::size_t k = 3; k + 3 < length.size(); ++k) {
+        // Of sixth order: what is left is rounding over h.
+        const double slope = (45 * (length[k + 1] - length[k - 1]) - 9 * (length[k + 2] - length[k - 2]) +
+                              (length[k + 3] - length[k - 3])) /
+                             (60 * h);
+        EXPECT_NEAR(slope, rate[k], 1e-8) << k * h;
+        largest = std::max(largest, std::abs(rate[k + 1] - 2 * rate[k] + rate[k - 1]) / (h * h));
+    }
+    std::cout << "mean length from " << length.front() << " to " << length.back() << " m, rate bends by at most "
+              << largest << " m/s^3\n";
+    // A jump j of the rate would show as j/h^2: none above 1e-5.
+    EXPECT_LT(largest, 0.02);
+    for (const double error : calcMean(run, "path_error")) EXPECT_LT(error, 1e-10);
 }
 
 }  // namespace
