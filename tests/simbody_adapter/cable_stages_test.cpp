@@ -158,6 +158,20 @@ TEST(CableStages, BeforeTopologyEveryCallThrowsTheStageError) {
     expectStageErrors();  // a State that is none of the System's
 }
 
+/** Whether a query throws the stage error, and by a check of ours: Simbody's own are gone where it was built for
+Release, and the name of the method in the message tells whose check it was. */
+::testing::AssertionResult isRefusedByTautline(const Query& query, const State& state) {
+    try {
+        query(state);
+    } catch (const SimTK::Exception::StageTooLow& error) {
+        const std::string message = error.what();
+        for (const char* method : {"Cable::", "CableForce::", "CableConstraint::", "Muscle::"})
+            if (message.find(method) != std::string::npos) return ::testing::AssertionSuccess();
+        return ::testing::AssertionFailure() << "refused by another's check: " << message;
+    }
+    return ::testing::AssertionFailure() << "answered too early";
+}
+
 TEST(CableStages, ForcesAskedTooEarlyThrowTheStageErrorToo) {
     MechanismScene scene;
     const ElasticStringForce string(scene.forces, scene.cable, 1, 1, 0);
@@ -170,7 +184,7 @@ TEST(CableStages, ForcesAskedTooEarlyThrowTheStageErrorToo) {
     const auto expectStage = [&](Stage stage, const std::vector<Query>& queries) {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             scene.system.realize(state, stage.prev());
-            EXPECT_THROW(queries[i](state), SimTK::Exception::StageTooLow) << stage.getName() << " query " << i;
+            EXPECT_TRUE(isRefusedByTautline(queries[i], state)) << stage.getName() << " query " << i;
             scene.system.realize(state, stage);
             EXPECT_NO_THROW(queries[i](state)) << stage.getName() << " query " << i;
             state.invalidateAllCacheAtOrAbove(stage);
