@@ -14,10 +14,11 @@ constexpr double kRangeTolerance = 1e-5;
 }  // namespace
 
 PlacedPoint::PlacedPoint(const PathPoint& point, const BuiltModel& model)
-    : m_matter(&model.getMatter()), m_body(model.getBodyIndex(point.body)), m_station_B(toSimTK(point.location)) {
+    : m_body(&model.getBody(point.body)), m_station_B(toSimTK(point.location)) {
     const auto setCoordinate = [&](const std::string& name) {
         const BuiltModel::CoordinateSlot& slot = model.getCoordinateSlot(name);
-        m_coordinateBody = slot.body, m_q = slot.q, m_low = slot.range[0], m_high = slot.range[1];
+        m_coordinateBody = &model.getMatter().getMobilizedBody(slot.body), m_q = slot.q;
+        m_low = slot.range[0], m_high = slot.range[1];
     };
     if (const auto* moving = std::get_if<MovingLocation>(&point.kind)) {
         m_moving = std::make_shared<const MovingLocation>(*moving);
@@ -30,7 +31,7 @@ PlacedPoint::PlacedPoint(const PathPoint& point, const BuiltModel& model)
 }
 
 double PlacedPoint::getCoordinate(const SimTK::State& state) const {
-    return m_matter->getMobilizedBody(m_coordinateBody).getOneQ(state, m_q);
+    return m_coordinateBody->getOneQ(state, m_q);
 }
 
 bool PlacedPoint::isInRange(const SimTK::State& state) const {
@@ -47,7 +48,7 @@ SimTK::Vec3 PlacedPoint::calcMoved(const SimTK::State& state) const {
 }
 
 SimTK::Vec3 PlacedPoint::calcLocation(const SimTK::State& state) const {
-    return m_matter->getMobilizedBody(m_body).findStationLocationInGround(state, calcStation(state));
+    return m_body->findStationLocationInGround(state, calcStation(state));
 }
 
 double calcPolygonLength(const MusclePath& path, const BuiltModel& model, const SimTK::State& state) {

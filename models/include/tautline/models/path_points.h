@@ -26,13 +26,12 @@ private:
     SimTK::Vec3 calcMoved(const SimTK::State& state) const;
     double getCoordinate(const SimTK::State& state) const;
 
-    const SimTK::SimbodyMatterSubsystem* m_matter;
-    SimTK::MobilizedBodyIndex m_body;
+    const SimTK::MobilizedBody* m_body;
     SimTK::Vec3 m_station_B;
     bool m_isConditional = false;
     std::shared_ptr<const MovingLocation> m_moving;  ///< null: it stands at m_station_B
     // The coordinate that moves it or decides about it.
-    SimTK::MobilizedBodyIndex m_coordinateBody;
+    const SimTK::MobilizedBody* m_coordinateBody = nullptr;
     SimTK::MobilizerQIndex m_q;
     double m_low = 0, m_high = 0;  ///< of its range, or of the point's
 };
