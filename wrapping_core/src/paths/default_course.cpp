@@ -2,10 +2,8 @@
 #include "paths/default_course.h"
 
 #include <cmath>
-#include <optional>
 
 #include "paths/arc_course.h"
-#include "paths/route.h"
 #include "tautline/paths/segment_clearance.h"
 
 namespace tautline {
@@ -102,9 +100,8 @@ bool liesWhereEndsPull(const PosedProblem& scene, int e, const ObstacleContact& 
 
 }  // namespace
 
-bool isOnDefaultCourse(const PosedProblem& scene, const PathSolution& path) {
-    std::optional<Route> laid;  // where it is needed: to lay it costs as much as to continue a path
-    bool isOnCourse = true;
+bool isOnDefaultCourse(const PosedProblem& scene, const PathSolution& path, Route& laid) {
+    bool isOnCourse = true, isLaid = false;  // laid where it is needed: that costs as much as to continue a path
     scene.forEachObstacleOnSegments(path, [&](int e, int in, int out) {
         const ObstacleContact& contact = path.contacts[e];
         if (!isOnCourse || contact.isSwitchedOff) return;
@@ -116,13 +113,13 @@ bool isOnDefaultCourse(const PosedProblem& scene, const PathSolution& path) {
             isOnCourse = isOnCourse && turnsAsRoute(scene, path, e, in, out, asked);
             return;
         }
-        if (!laid) laid = calcAskedRoute(scene);
-        const Route& asked = *laid;
+        if (!isLaid) calcAskedRoute(scene, laid);
+        isLaid = true;
         int last = e - 1, next = e + 1;
-        while (asked.waypoints[last].empty()) --last;
-        while (asked.waypoints[next].empty()) ++next;
-        const RoutePlace route{asked.waypoints[e], asked.waypoints[last].back(), asked.waypoints[next].front()};
-        const int count = asked.threading.counts[e];
+        while (laid.waypoints[last].empty()) --last;
+        while (laid.waypoints[next].empty()) ++next;
+        const RoutePlace route{laid.waypoints[e], laid.waypoints[last].back(), laid.waypoints[next].front()};
+        const int count = laid.threading.counts[e];
         if (count != PassageRule::kAny)
             isOnCourse = isOnCourse && contact.passage.isKnown() && contact.passage.count == count;
         if (!isOnCourse) return;

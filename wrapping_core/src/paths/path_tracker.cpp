@@ -125,6 +125,7 @@ struct PathTracker::Workspace {
     PathSolver solver;
     PathSolver continuer;  ///< finds nothing anew
     PathFollower follower;
+    Route asked;
     ContactSettler settler;
     PoseMotion way;
 };
@@ -154,7 +155,9 @@ void PathTracker::solveFrom(const PathProblem& problem, const TrackedPath& start
         path.solution = start.solution;
         m_workspace->continuer.solve(problem, path.pose, path.solution);
         const bool isAsAsked = path.solution.deviation.kind == RouteDeviation::Kind::None;
-        if (isMinimum(path.solution) && isAsAsked && isOnDefaultCourse({problem, path.pose}, path.solution)) return;
+        if (isMinimum(path.solution) && isAsAsked &&
+            isOnDefaultCourse({problem, path.pose}, path.solution, m_workspace->asked))
+            return;
     }
     solve(problem, path);
 }

@@ -255,8 +255,10 @@ void guideOverSunken(const PosedProblem& scene, const std::vector<PassedObstacle
 
 }  // namespace
 
-Route calcAskedRoute(const PosedProblem& scene) {
-    Route route{Waypoints(scene.size()), PassageRule{std::vector<int>(scene.size(), PassageRule::kAny)}};
+void calcAskedRoute(const PosedProblem& scene, Route& route) {
+    route.waypoints.resize(scene.size());
+    for (std::vector<Vec3>& points : route.waypoints) points.clear();
+    route.threading.counts.assign(scene.size(), PassageRule::kAny);
     Vec3 last_G = Vec3::Zero();
     for (int e = 0; e < scene.size(); ++e) {
         if (!scene.pose.hasElement(e)) continue;
@@ -264,7 +266,7 @@ Route calcAskedRoute(const PosedProblem& scene) {
         const Pose& X_GE = scene.getPose(e);
         std::vector<Vec3>& points = route.waypoints[e];
         if (element.isPoint()) {
-            points = {X_GE.p};
+            points.push_back(X_GE.p);
         } else {
             const Chord chord{X_GE.shiftBack(last_G), X_GE.shiftBack(findNextKnown(scene, e))};
             std::visit([&](const auto& hint) { guide(element, hint, chord, points); }, element.hint);
@@ -273,7 +275,6 @@ Route calcAskedRoute(const PosedProblem& scene) {
         }
         if (!points.empty()) last_G = points.back();
     }
-    return route;
 }
 
 double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S) {

@@ -17,8 +17,9 @@ struct Route {
 };
 
 /** As the hints of the problem ask; a ring without one is to be threaded if the straight line threads it. Of an endless
-body (PathElement::isEndless) a side is a homotopy class, and is laid as the turn about the axis that leads to it. */
-Route calcAskedRoute(const PosedProblem& scene);
+body (PathElement::isEndless) a side is a homotopy class, and is laid as the turn about the axis that leads to it.
+@param route   whatever it was before: its memory is used again */
+void calcAskedRoute(const PosedProblem& scene, Route& route);
 
 /** By how much the asked route turns about the z axis of S past an endless body that lies alone between two points,
 with no more than a side asked for [rad]: what calcAskedRoute() lays there, without laying it. */

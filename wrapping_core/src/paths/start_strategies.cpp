@@ -204,7 +204,7 @@ void PathSearch::layAlongPrevious(PathSolution& path) {
 }
 
 void PathSearch::insertContacts(PathSolution& path) {
-    m_asked = calcAskedRoute(*m_scene);
+    calcAskedRoute(*m_scene, m_asked);
     solveInserted(m_asked, path);
     if (m_bestRank == Rank::Minimum || !hasSidesAlone(*m_scene)) return;
     Route straight = calcReleasedRoute(*m_scene);
