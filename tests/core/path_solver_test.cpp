@@ -105,6 +105,54 @@ TEST(PathSolver, WarmEqualsCold) {
     }
 }
 
+PathScene makeArcOver(std::shared_ptr<const Surface> surface) {
+    PathScene scene;
+    scene.point({-2, 0.3, 0.2}).obstacle(std::move(surface), Pose()).point({2, 0.2, -0.1});
+    return scene;
+}
+
+const std::vector<std::shared_ptr<const Surface>> kArcSurfaces = {
+    std::make_shared<Ellipsoid>(Vec3(1, 2, 1.2)), std::make_shared<Cylinder>(1), std::make_shared<Sphere>(1),
+    std::make_shared<ParametricEllipsoid>(Vec3(1, 2, 1.2))};
+
+TEST(PathSolver, ArcsThatAreKnownAreNotShotAgain) {
+    for (const auto& surface : kArcSurfaces) {
+        PathScene scene = makeArcOver(surface);
+        PathSolver solver;
+        PathSolution path;
+        solver.solve(scene.problem, scene.pose, path);
+        ASSERT_TRUE(path.contacts[1].isTouched);
+        const double length = path.length;
+        solver.solve(scene.problem, scene.pose, path);
+        EXPECT_EQ(path.shots, 0) << surface->getDescription();
+        EXPECT_EQ(path.length, length);
+        scene.pose.X_GE[0].p.y() += 0.02;
+        PathSolver().solve(scene.problem, scene.pose, path);
+        EXPECT_GT(path.iterations, 1);
+        EXPECT_EQ(path.shots, path.iterations) << surface->getDescription();
+        EXPECT_NEAR(path.length, scene.solve().length, 1e-14);
+    }
+}
+
+TEST(PathSolver, ArcsOfAnotherSurfaceOrAccuracyAreShotAgain) {
+    PathSolution path = makeArcOver(std::make_shared<Ellipsoid>(Vec3(1, 2, 1.2))).solve();
+    // A copy is the same surface, another one of the same shape is not.
+    const Ellipsoid original(Vec3(1, 2, 1.2)), copy = original, twin(Vec3(1, 2, 1.2));
+    EXPECT_EQ(copy.getId(), original.getId());
+    EXPECT_NE(twin.getId(), original.getId());
+    const PathScene thin = makeArcOver(std::make_shared<Ellipsoid>(Vec3(0.9, 2, 1.1)));
+    PathSolver solver;
+    solver.solve(thin.problem, thin.pose, path);
+    EXPECT_GT(path.shots, 0);
+    EXPECT_NEAR(path.length, thin.solve().length, 1e-14);
+    PathSolverOptions rough;
+    rough.geodesics.accuracy = 1e-6;
+    path = thin.solve(rough);
+    solver.solve(thin.problem, thin.pose, path);
+    EXPECT_GT(path.shots, 0);
+    EXPECT_NEAR(path.length, thin.solve().length, 1e-14);
+}
+
 TEST(PathSolver, WarmSolveDoesNotAllocate) {
     for (WeaveScene::Kind kind : {WeaveScene::Kind::Cylinders, WeaveScene::Kind::Ellipsoids}) {
         const WeaveScene weave(kind, 10);

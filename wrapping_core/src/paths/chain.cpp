@@ -2,6 +2,44 @@
 #include "paths/chain.h"
 
 namespace tautline {
+namespace {
+
+/** Whether the geodesic of a contact is the one that would be shot from its start. */
+bool isShotFromStart(const ObstacleContact& contact, const Surface& surface, const GeodesicOptions& options) {
+    const Geodesic& arc = contact.geodesic;
+    return contact.shot.surface == surface.getId() && contact.shot.accuracy == options.accuracy && arc.converged &&
+           arc.length == contact.start.length && arc.P.x == contact.start.point.p && arc.P.t == contact.start.tangent;
+}
+
+/** The arcs' end frames in ground and the straight segments. @return false if a geodesic did not come to its end or a
+number is not finite */
+bool layChain(const PathPose& pose, Chain& chain) {
+    bool isFinite = true;
+    for (ChainContact& contact : chain.contacts) {
+        const Geodesic& geodesic = contact.geodesic;
+        isFinite = isFinite && geodesic.converged && geodesic.Q.x.allFinite() && geodesic.Q.t.allFinite();
+        const Pose& X_GS = pose.X_GE[contact.element];
+        contact.P = geodesic.P.reexpressedBy(X_GS);
+        contact.Q = geodesic.Q.reexpressedBy(X_GS);
+    }
+    for (ChainSegment& segment : chain.segments) {
+        StraightSegment& line = segment.line;
+        line.A = segment.fromContact < 0 ? pose.X_GE[line.fromElement].p : chain.contacts[segment.fromContact].Q.x;
+        line.B = segment.toContact < 0 ? pose.X_GE[line.toElement].p : chain.contacts[segment.toContact].P.x;
+        const Vec3 AB = line.B - line.A;
+        line.length = AB.norm();
+        // Coincident ends: any direction serves, the neighbouring tangent if there is one.
+        if (line.length > 0)
+            line.e = AB / line.length;
+        else if (segment.toContact >= 0)
+            line.e = chain.contacts[segment.toContact].P.t;
+        else
+            line.e = segment.fromContact >= 0 ? chain.contacts[segment.fromContact].Q.t : Vec3(Vec3::UnitX());
+    }
+    return isFinite;
+}
+
+}  // namespace
 
 void Chain::build(const PathProblem& problem, const PathPose& pose,
                   const std::vector<ObstacleContact>& elementContacts) {
@@ -32,32 +70,26 @@ void Chain::build(const PathProblem& problem, const PathPose& pose,
 }
 
 bool shootChain(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options, Chain& chain) {
-    bool isFinite = true;
-    for (ChainContact& contact : chain.contacts) {
-        Geodesic& geodesic = contact.geodesic;
-        problem.getElement(contact.element).surface->shootGeodesic(contact.start, options, geodesic);
-        isFinite = isFinite && geodesic.converged && geodesic.Q.x.allFinite() && geodesic.Q.t.allFinite();
-        const Pose& X_GS = pose.X_GE[contact.element];
-        contact.P = geodesic.P.reexpressedBy(X_GS);
-        contact.Q = geodesic.Q.reexpressedBy(X_GS);
-    }
-    for (ChainSegment& segment : chain.segments) {
-        StraightSegment& line = segment.line;
-        line.A = segment.fromContact < 0 ? pose.X_GE[line.fromElement].p : chain.contacts[segment.fromContact].Q.x;
-        line.B = segment.toContact < 0 ? pose.X_GE[line.toElement].p : chain.contacts[segment.toContact].P.x;
-        const Vec3 AB = line.B - line.A;
-        line.length = AB.norm();
-        // Coincident ends: any direction serves, the neighbouring tangent if there is one.
-        if (line.length > 0)
-            line.e = AB / line.length;
-        else if (segment.toContact >= 0)
-            line.e = chain.contacts[segment.toContact].P.t;
-        else
-            line.e = segment.fromContact >= 0 ? chain.contacts[segment.fromContact].Q.t : Vec3(Vec3::UnitX());
-    }
-    return isFinite;
+    for (ChainContact& contact : chain.contacts)
+        problem.getElement(contact.element).surface->shootGeodesic(contact.start, options, contact.geodesic);
+    return layChain(pose, chain);
 }
 
+bool shootUnknownArcs(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options,
+                      const std::vector<ObstacleContact>& elementContacts, Chain& chain, int& numShots) {
+    numShots = 0;
+    for (ChainContact& contact : chain.contacts) {
+        const Surface& surface = *problem.getElement(contact.element).surface;
+        const ObstacleContact& known = elementContacts[contact.element];
+        if (isShotFromStart(known, surface, options)) {
+            contact.geodesic = known.geodesic;
+        } else {
+            surface.shootGeodesic(contact.start, options, contact.geodesic);
+            ++numShots;
+        }
+    }
+    return layChain(pose, chain);
+}
 double calcLength(const Chain& chain) {
     double length = 0;
     for (const ChainSegment& segment : chain.segments) length += segment.line.length;

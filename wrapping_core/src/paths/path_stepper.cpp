@@ -30,9 +30,10 @@ bool PathStepper::begin(const PathProblem& problem, const PathPose& pose, PathSo
     path.errorHistory.reserve(m_options.maxIterations + 1);
     m_chain.build(problem, pose, path.contacts);
     m_trial.build(problem, pose, path.contacts);
-    const bool isFinite = shootChain(problem, pose, m_options.geodesics, m_chain);
+    int numShots = 0;
+    const bool isFinite = shootUnknownArcs(problem, pose, m_options.geodesics, path.contacts, m_chain, numShots);
     if (!isFinite) shortenBrokenArcs();
-    path.shots += static_cast<int>(m_chain.contacts.size());
+    path.shots += numShots;
     path.pathError = calcPathError(m_chain, m_eps);
     path.errorHistory.push_back(path.pathError);
     return isFinite;
@@ -89,8 +90,10 @@ void PathStepper::store(PathSolution& path) const {
     for (const ChainContact& from : m_chain.contacts) {
         ObstacleContact& to = path.contacts[from.element];
         to.start = from.start;
+        to.start.point.p = from.geodesic.P.x;  // of (u, v), to the last digit
         to.start.tangent = from.geodesic.P.t;
         to.geodesic = from.geodesic;
+        to.shot = {m_problem->getElement(from.element).surface->getId(), m_options.geodesics.accuracy};
         to.segment = -1;
     }
     path.length = calcLength(m_chain);

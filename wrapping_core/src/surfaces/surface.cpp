@@ -2,12 +2,18 @@
 #include "tautline/surfaces/surface.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "surfaces/arc_walker.h"
 #include "surfaces/closest_approach.h"
 #include "tautline/error.h"
 
 namespace tautline {
+
+std::uint64_t Surface::makeId() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
 
 /** The critical point by Newton's method on two conditions for C alone,
 

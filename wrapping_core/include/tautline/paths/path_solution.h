@@ -33,12 +33,19 @@ struct HolePassage {
 };
 
 /** What one obstacle does in a solved path. */
+/** Where an arc was shot, and how: as long as its start stays, it need not be shot again. */
+struct ArcShot {
+    std::uint64_t surface = 0;  ///< Surface::getId(); 0: none
+    double accuracy = kNaN;     ///< GeodesicOptions::accuracy
+};
+
 struct ObstacleContact {
     bool isTouched = false;
     bool isSwitchedOff = false;  ///< an end of its strand is inside it, or the pose passes it over
     bool yields = false;         ///< it overlaps another obstacle where the string lies: the path passes through it
     GeodesicStart start;         ///< in S; of the arc, or of the last arc while lifted
     Geodesic geodesic;           ///< in S; only while touched
+    ArcShot shot;                ///< that `geodesic` came from
     LineClearance clearance;     ///< in S; of the straight line that passes the surface while lifted
     int segment = -1;            ///< while lifted: index of that straight segment
     HolePassage passage;         ///< of surfaces that have a hole: the one that a continued path has to keep

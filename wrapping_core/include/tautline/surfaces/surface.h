@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,10 @@ from many threads at once. Lengths in meters. No method throws for finite input.
 class Surface {
 public:
     virtual ~Surface() = default;
+
+    /** A number that no other surface of the process has, but copies of this one: it tells whether what was computed on
+    a surface is of use on another. */
+    std::uint64_t getId() const { return m_id; }
 
     /** Kind of the surface and its dimensions, for messages: "cylinder(radius=0.4)". */
     virtual std::string getDescription() const = 0;
@@ -103,6 +108,11 @@ public:
                                      Vec2& /*uvRates*/) const {
         return false;
     }
+
+private:
+    static std::uint64_t makeId();
+
+    std::uint64_t m_id = makeId();
 };
 
 /** Points along a geodesic, ends included, by shooting from each to the next. Needs count >= 2.
