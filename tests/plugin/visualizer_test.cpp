@@ -74,13 +74,13 @@ TEST_F(VisualizerWindow, MayBeClosedBeforeTheRunEnds) {
     const Display display;
     const std::filesystem::path folder = makeFolder("closed"), said = folder.string() + ".txt";
     std::string output;
-    const int exitCode = runProgram(
-        "DISPLAY=:97 " TAUTLINE_PROGRAM " run " TAUTLINE_SOURCE_DIR
-        "/models/elbow.osim --visualize --duration 3 --out " +
-            folder.string() + " >" + said.string() +
-            " 2>&1 & run=$!; for i in 1 2 3 4 5 6 7 8; do sleep 0.25; window=$(pgrep -P $run) && break; done; "
-            "sleep 0.5; kill $window; (sleep 60; kill $run) >/dev/null 2>&1 & wait $run",
-        output);
+    const int exitCode = runProgram("DISPLAY=:97 " TAUTLINE_PROGRAM " run " TAUTLINE_SOURCE_DIR
+                                    "/models/elbow.osim --visualize --duration 6 --out " +
+                                        folder.string() + " >" + said.string() +
+                                        " 2>&1 & run=$!; for i in $(seq 60); do sleep 0.25; window=$(pgrep -P $run "
+                                        "simbody) && break; kill -0 $run || break; done; "
+                                        "sleep 1; kill $window; (sleep 60; kill $run) >/dev/null 2>&1 & wait $run",
+                                    output);
     if (readAll(said).find("there is no simbody-visualizer") != std::string::npos) GTEST_SKIP() << readAll(said);
     EXPECT_EQ(exitCode, 0) << readAll(said);
     EXPECT_NE(readAll(said).find("note: the window of the visualizer was closed before the end"), std::string::npos)
