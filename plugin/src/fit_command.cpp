@@ -56,8 +56,9 @@ std::string describeRepairs(const RepairedMesh& repaired) {
 void printFit(const SolidFit& fit, std::ostream& out) {
     const SolidGrid& grid = fit.solid.getGrid();
     const Vec3& worst = fit.points[static_cast<std::size_t>(fit.report.worst)];
-    out << "put in order: " << describeRepairs(fit.repaired) << "; " << fit.repaired.parts << " parts\n"
-        << "smoothed: width " << inMillimeters(grid.width) << ", grid " << inMillimeters(grid.spacing) << "\n"
+    out << "put in order: " << describeRepairs(fit.repaired) << "; " << fit.repaired.parts
+        << (fit.repaired.parts == 1 ? " part\n" : " parts\n") << "smoothed: width " << inMillimeters(grid.width)
+        << ", grid " << inMillimeters(grid.spacing) << "\n"
         << "off the mesh: " << inMillimeters(fit.report.rms) << " rms, " << inMillimeters(fit.report.largest)
         << " at most, at " << worst.x() << " " << worst.y() << " " << worst.z() << "\n";
 }

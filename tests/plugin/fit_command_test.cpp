@@ -48,8 +48,8 @@ TEST(FitCommand, WritesASolidAndTheElementThatAModelNeeds) {
     const Outcome fit =
         runTautline("fit " + bone.string() + " --bone --unit 0.001 --width 0.003 --out " + solid.string());
     ASSERT_EQ(fit.exitCode, 0) << fit.text;
-    for (const char* part : {"2562 points, 5120 triangles", "put in order: nothing; 1 parts", "width 3 mm, grid 4.5 mm",
-                             "off the mesh: ", "written: "})
+    for (const char* part : {"2562 points, 5120 triangles", "put in order: nothing; 1 part\n",
+                             "width 3 mm, grid 4.5 mm", "off the mesh: ", "written: "})
         EXPECT_TRUE(fit.has(part)) << part << "\n" << fit.text;
     EXPECT_NEAR(readSolidFile(solid).getSize(), 0.019, 0.001);
     const std::string element = fit.text.substr(fit.text.find("<TautlineWrapMesh"));
