@@ -90,6 +90,7 @@ bool shootUnknownArcs(const PathProblem& problem, const PathPose& pose, const Ge
     }
     return layChain(pose, chain);
 }
+
 double calcLength(const Chain& chain) {
     double length = 0;
     for (const ChainSegment& segment : chain.segments) length += segment.line.length;

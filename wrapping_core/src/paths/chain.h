@@ -15,13 +15,7 @@ struct ChainContact {
     int segmentIn = -1;   ///< the segment that ends at P; the next one, segmentIn + 1, begins at Q
     GeodesicStart start;  ///< in S
     Geodesic geodesic;    ///< in S
-    bool isShot = false;  ///< whether `geodesic` is that of `start`
     DarbouxFrame P, Q;    ///< in ground
-
-    void setStart(const GeodesicStart& next) {
-        start = next;
-        isShot = false;
-    }
 };
 
 /** A straight segment of a chain; contact indices are -1 where it ends at a fixed point. */
@@ -34,17 +28,12 @@ struct Chain {
     std::vector<ChainContact> contacts;
     std::vector<ChainSegment> segments;
 
-    /** Sets contacts and segments from the touched, active elements; starts come from `contacts`. Geodesics
-    are left for takeShots() and shootChain(), frames and lines for the latter. */
+    /** Sets contacts and segments from the touched, active elements; starts come from `contacts`. Geodesics, frames and
+    lines are left for shootChain(). */
     void build(const PathProblem& problem, const PathPose& pose, const std::vector<ObstacleContact>& elementContacts);
 };
 
-/** Takes the geodesics that are known from an earlier solve: shot on the same surface, as accurately, from where the
-arc starts now. @return how many are left to be shot */
-int takeShots(const PathProblem& problem, const GeodesicOptions& options,
-              const std::vector<ObstacleContact>& elementContacts, Chain& chain);
-
-/** Shoots all geodesics that are not shot yet of the chain (step 1 of thesis Sec. 4.6) and lays the straight segments.
+/** Shoots all geodesics of the chain (step 1 of thesis Sec. 4.6) and lays the straight segments.
 @return false if a geodesic did not come to its end or a number is not finite */
 bool shootChain(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options, Chain& chain);
 

@@ -31,8 +31,8 @@ bool correctStarts(const PathProblem& problem, const std::vector<double>& eps, P
     if (!jacobian.solveInPlace(step)) return false;
     for (std::size_t i = 0; i < chain.contacts.size(); ++i) {
         ChainContact& contact = chain.contacts[i];
-        contact.setStart(calcCorrectedStart(*problem.getElement(contact.element).surface, contact.start,
-                                            contact.geodesic.P, Eigen::Map<const Vec4>(&step[kVariations * i])));
+        contact.start = calcCorrectedStart(*problem.getElement(contact.element).surface, contact.start,
+                                           contact.geodesic.P, Eigen::Map<const Vec4>(&step[kVariations * i]));
     }
     return true;
 }

@@ -32,13 +32,13 @@ struct HolePassage {
     bool isKnown() const { return from >= 0; }
 };
 
-/** What one obstacle does in a solved path. */
 /** Where an arc was shot, and how: as long as its start stays, it need not be shot again. */
 struct ArcShot {
     std::uint64_t surface = 0;  ///< Surface::getId(); 0: none
     double accuracy = kNaN;     ///< GeodesicOptions::accuracy
 };
 
+/** What one obstacle does in a solved path. */
 struct ObstacleContact {
     bool isTouched = false;
     bool isSwitchedOff = false;  ///< an end of its strand is inside it, or the pose passes it over
