@@ -43,10 +43,11 @@ std::string_view MeshContent::takeLine() {
 }
 
 std::string_view MeshContent::takeWord() {
-    const std::size_t begin = std::min(m_bytes.find_first_not_of(kSpace, m_at), m_bytes.size());
-    m_wordAt = begin;
-    m_at = std::min(m_bytes.find_first_of(kSpace, begin), m_bytes.size());
-    return m_bytes.substr(begin, m_at - begin);
+    std::string_view rest = m_bytes.substr(std::min(m_at, m_bytes.size()));
+    const std::string_view word = takeWordOf(rest);
+    m_at = m_bytes.size() - rest.size();
+    m_wordAt = m_at - word.size();
+    return word;
 }
 
 double MeshContent::takeNumber() {

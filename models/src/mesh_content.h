@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/** What the readers of meshes share: text by words, binary numbers of either byte order, faces of any number of
- * corners. */
+/** What the readers of meshes share: text by words, binary numbers of either byte order, faces with any number of
+corners. */
 #include <array>
 #include <cstdint>
 #include <string>
@@ -39,7 +39,7 @@ public:
     void addFace(const std::vector<int>& corners);
 
     /** Once all is read. @throws ModelError for a mesh without faces, a corner without a point, a point that is not
-     * finite */
+    finite */
     TriangleMesh finish();
 
 private:
