@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What cables cost in Simbody: a swinging chain with many of them, and one cable over many cylinders beside the core
-alone. README.md says how to read the table. */
+/** What cables cost in Simbody: a swinging chain with many of them, one cable over many cylinders beside the core
+alone, and systems of the kind of Simbody's examples with its own cables and with ours. README.md says how to read the
+table. */
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
+#include <iostream>
+#include <sstream>
 
+#include "simbody_adapter/peer_scenes.h"
 #include "support/weave_scene.h"
 #include "tautline/paths/path_solver.h"
 #include "tautline/simbody/cable.h"
@@ -198,6 +202,35 @@ void printWeave(int count) {
     }
 }
 
+/** Ten seconds at the accuracy of Simbody's examples. */
+template <class Scene>
+double measureExample() {
+    std::ostringstream printed;  // CablePath reports on itself
+    std::streambuf* const out = std::cout.rdbuf(printed.rdbuf());
+    Scene scene;
+    SimTK::RungeKuttaMersonIntegrator integrator(scene.system);
+    integrator.setAccuracy(1e-3);
+    SimTK::TimeStepper stepper(scene.system, integrator);
+    stepper.initialize(scene.makeStart());
+    const double begin = getCpuTime();
+    stepper.stepTo(10);
+    const double cpu = getCpuTime() - begin;
+    std::cout.rdbuf(out);
+    return cpu;
+}
+
+void printExample(const char* name, double theirs, double ours) {
+    std::printf("%-24s CablePath %.3f s, Tautline %.3f s, %.2f of it\n", name, theirs, ours, ours / theirs);
+}
+
+void printExamples() {
+    namespace t = tautline::testing;
+    printExample("tangled chain:", measureExample<t::BallChainScene<t::SimbodyCables>>(),
+                 measureExample<t::BallChainScene<t::TautlineCables>>());
+    printExample("two bicubic maps:", measureExample<t::SaddlesScene<t::SimbodyCables>>(),
+                 measureExample<t::SaddlesScene<t::TautlineCables>>());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -209,5 +242,6 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     printChain(numCables, duration);
     for (const int count : {5, 50}) printWeave(count);
+    printExamples();
     return 0;
 }
