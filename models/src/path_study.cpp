@@ -63,8 +63,7 @@ std::vector<ObstacleAnswer> getObstacles(const Cable& cable, const PathSolution&
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (problem.getElement(e).isPoint()) continue;
         const ObstacleContact& contact = solution.contacts[static_cast<std::size_t>(e)];
-        obstacles.push_back(
-            {contact.isTouched, contact.isSwitchedOff, contact.isTouched ? contact.geodesic.length : 0.0});
+        obstacles.push_back({contact.isTouched, contact.getNumArcs(), contact.isSwitchedOff, contact.calcArcLength()});
     }
     return obstacles;
 }

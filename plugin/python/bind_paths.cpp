@@ -123,7 +123,8 @@ public:
                 const auto e = static_cast<std::size_t>(m_obstacles[o]);
                 const ObstacleContact& contact = path(i).contacts.at(e);
                 Vec3 point = Vec3::Constant(kNaN);
-                if (contact.isTouched) point = pose(i).X_GE[e] * (isP ? contact.geodesic.P.x : contact.geodesic.Q.x);
+                if (contact.isTouched)
+                    point = pose(i).X_GE[e] * (isP ? contact.geodesic.P.x : contact.getLastArc().geodesic.Q.x);
                 for (int k = 0; k < 3; ++k) *points.mutable_data(i, o, k) = point[k];
             }
         return points;
@@ -262,10 +263,8 @@ void bindPaths(py::module_& module) {
 
     const auto length = [](const PathSolution& path) { return path.length; };
     const auto pathError = [](const PathSolution& path) { return path.pathError; };
-    const auto isTouched = [](const ObstacleContact& contact) { return contact.isTouched ? 1.0 : 0.0; };
-    const auto arcLength = [](const ObstacleContact& contact) {
-        return contact.isTouched ? contact.geodesic.length : 0.0;
-    };
+    const auto countArcs = [](const ObstacleContact& contact) { return 1.0 * contact.getNumArcs(); };
+    const auto arcLength = [](const ObstacleContact& contact) { return contact.calcArcLength(); };
     py::class_<PathResults, std::shared_ptr<PathResults>>(module, "PathResults",
                                                           "Paths in n poses. Vectors are in ground, units SI.")
         .def("__len__", &PathResults::size)
@@ -279,17 +278,17 @@ void bindPaths(py::module_& module) {
             "path_error", [=](const PathResults& r) { return r.list(pathError); },
             "(n,), largest entry of the path error, dimensionless")
         .def_property_readonly(
-            "touched", [=](const PathResults& r) { return r.tabulate(isTouched); },
-            "(n, obstacles): 1 where an obstacle is touched, else 0")
+            "touched", [=](const PathResults& r) { return r.tabulate(countArcs); },
+            "(n, obstacles): in how many arcs the path lies on an obstacle, 0 while lifted")
         .def_property_readonly(
             "arc_length", [=](const PathResults& r) { return r.tabulate(arcLength); },
-            "(n, obstacles) [m]; 0 while lifted")
+            "(n, obstacles) [m], of all arcs together; 0 while lifted")
         .def_property_readonly(
             "P", [](const PathResults& r) { return r.getContactPoints(true); },
-            "(n, obstacles, 3): where the path meets each obstacle [m]; NaN while lifted")
+            "(n, obstacles, 3): where the path first meets each obstacle [m]; NaN while lifted")
         .def_property_readonly(
             "Q", [](const PathResults& r) { return r.getContactPoints(false); },
-            "(n, obstacles, 3): where it leaves [m]; NaN while lifted")
+            "(n, obstacles, 3): where it last leaves [m]; NaN while lifted")
         .def_property_readonly("unit_forces", &PathResults::calcForces,
                                "(n, elements, 6): moment about the element's origin [m] and force [1] at unit tension")
         .def("rate", &PathResults::calcRates, arg("velocities"),

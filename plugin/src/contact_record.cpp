@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "storage_file.h"
 
@@ -58,21 +59,31 @@ RecordedContact parseContact(const std::string& text, const std::filesystem::pat
     return contact;
 }
 
-/** The arcs of one path. @throws std::runtime_error naming an obstacle that it does not have */
-PathStart makeStart(const std::vector<RecordedContact>& contacts, const ModelSystem::PathView& path) {
-    PathStart start(static_cast<std::size_t>(path.cable.getNumElements()));
+/** What one path touches, and where: arcs of one obstacle follow each other. @throws std::runtime_error naming an
+ * obstacle that it does not have */
+PathSolution makeStart(const std::vector<RecordedContact>& contacts, const ModelSystem::PathView& path) {
+    PathSolution start;
+    start.contacts.resize(static_cast<std::size_t>(path.cable.getNumElements()));
     for (const RecordedContact& contact : contacts) {
         if (contact.path != path.path) continue;
         const CableElementIndex e = path.cable.findElement(contact.obstacle);
         const std::shared_ptr<const Surface> surface = path.cable.getSurface(e);
         if (!surface) throw std::runtime_error("'" + contact.obstacle + "' of " + path.path + " is no obstacle");
-        GeodesicStart arc;
+        ObstacleContact& obstacle = start.contacts[static_cast<std::size_t>(e)];
+        if (std::exchange(obstacle.isTouched, true)) obstacle.furtherArcs.emplace_back();
+        GeodesicStart& arc = obstacle.updArc(obstacle.getNumArcs() - 1).start;
         arc.point = surface->findSurfacePoint(contact.point);
         arc.tangent = surface->calcFrame(arc.point, contact.direction).t;
         arc.length = contact.length;
-        start[e] = arc;
     }
     return start;
+}
+
+std::string makeArcFields(const GeodesicStart& arc) {
+    std::string text;
+    for (const Vec3& vector : {arc.point.p, arc.tangent})
+        for (int i = 0; i < 3; ++i) text += "," + toText(vector[i]);
+    return text + "," + toText(arc.length);
 }
 
 }  // namespace
@@ -81,12 +92,10 @@ std::string makeContactText(const ModelSystem& model, const SimTK::State& state)
     std::string text = std::string(kHeading) + "\n";
     for (const ModelSystem::PathView& path : model.getPaths())
         for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e) {
-            if (!path.cable.isObstacle(e) || !path.cable.isTouched(state, e)) continue;
-            const GeodesicStart& arc = path.cable.getSolution(state).contacts[e].start;
-            text += path.path + "," + path.cable.getElementName(e);
-            for (const Vec3& vector : {arc.point.p, arc.tangent})
-                for (int i = 0; i < 3; ++i) text += "," + toText(vector[i]);
-            text += "," + toText(arc.length) + "\n";
+            if (!path.cable.isObstacle(e)) continue;
+            const ObstacleContact& contact = path.cable.getSolution(state).contacts[e];
+            for (int i = 0; i < contact.getNumArcs(); ++i)
+                text += path.path + "," + path.cable.getElementName(e) + makeArcFields(contact.getArc(i).start) + "\n";
         }
     return text;
 }
@@ -110,7 +119,7 @@ void continueContacts(const std::vector<RecordedContact>& contacts, const ModelS
     for (const ModelSystem::PathView& path : model.getPaths()) {
         if (path.cable.isDisabled(state) || path.cable.getNumObstacles() == 0) continue;
         model.getSystem().realize(state, SimTK::Stage::Position);
-        PathSolution solution = makePathSolution(makeStart(contacts, path));
+        PathSolution solution = makeStart(contacts, path);
         PathSolver solver(path.cable.getOptions());
         solver.solveKeepingContacts(path.cable.getPathProblem(), path.cable.getPathPose(state), solution);
         if (solution.status == PathStatus::Solved) path.cable.continueFrom(state, solution);

@@ -85,19 +85,28 @@ std::size_t SceneRecorder::addObstacle(const models::ModelDescription& descripti
     return m_obstacles.size() - 1;
 }
 
+namespace {
+
+double calcWitness(const models::CorePath& core, int element) {
+    return calcContactWitness(*core.problem, *core.pose, *core.solution, element);
+}
+
+}  // namespace
+
 void SceneRecorder::recordPath(std::size_t path, const CorePath& core, ReportPage::Frame& frame) {
     frame.paths.push_back(core.problem ? drawPath(core) : ReportPage::Path());
     const std::vector<int> elements = core.problem ? listObstacles(*core.problem) : std::vector<int>();
     for (std::size_t i = 0; i < m_witnessesOfPath[path].size(); ++i) {
         Witness& witness = m_witnesses[m_witnessesOfPath[path][i]];
-        witness.values.push_back(core.problem ? calcContactWitness(*core.problem, *core.solution, elements[i]) : kNaN);
+        witness.values.push_back(core.problem ? calcWitness(core, elements[i]) : kNaN);
         if (!core.problem) continue;
         const int element = elements[i];
         if (!core.solution->contacts[static_cast<std::size_t>(element)].isTouched) continue;
         frame.touched.push_back(witness.obstacle);
         if (m_frames.size() % kTouchStride != 0) continue;
-        const Geodesic& arc = core.solution->contacts[static_cast<std::size_t>(element)].geodesic;
-        m_obstacles[witness.obstacle].touched_S.push_back(arc.P.x);
+        const ObstacleContact& contact = core.solution->contacts[static_cast<std::size_t>(element)];
+        for (int arc = 0; arc < contact.getNumArcs(); ++arc)
+            m_obstacles[witness.obstacle].touched_S.push_back(contact.getArc(arc).geodesic.P.x);
     }
 }
 

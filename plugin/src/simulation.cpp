@@ -100,6 +100,12 @@ private:
                 return "liftoff";
             case ContactEvent::Kind::Split:
                 return "split";
+            case ContactEvent::Kind::Joined:
+                return "joined";
+            case ContactEvent::Kind::ArcMade:
+                return "arc_made";
+            case ContactEvent::Kind::ArcLost:
+                return "arc_lost";
             case ContactEvent::Kind::LeftHole:
                 return "left_hole";
             case ContactEvent::Kind::Slipped:
@@ -230,7 +236,7 @@ private:
             row.push_back(path.force.getTension(state));
             row.push_back(path.cable.getPathError(state));
             for (CableElementIndex e(0); e < path.cable.getNumElements(); ++e)
-                if (path.cable.isObstacle(e)) row.push_back(path.cable.isTouched(state, e));
+                if (path.cable.isObstacle(e)) row.push_back(path.cable.getNumArcs(state, e));
             path.cable.calcUnitMobilityForces(state, m_unitForces);
             for (const int coordinate : m_armCoordinates[i])
                 row.push_back(coupling.calcEffectiveArm(m_unitForces, coordinate));

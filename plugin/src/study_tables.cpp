@@ -47,7 +47,7 @@ StorageTable makePathTable(const PathStudy& study, const std::vector<double>& ti
             row.insert(row.end(),
                        {path.length, path.rate, static_cast<double>(path.status), 1.0 * path.followsHints()});
             for (const models::ObstacleAnswer& obstacle : path.obstacles)
-                row.insert(row.end(), {1.0 * obstacle.isTouched, 1.0 * obstacle.isSwitchedOff});
+                row.insert(row.end(), {1.0 * obstacle.numArcs, 1.0 * obstacle.isSwitchedOff});
         }
     });
     return table;

@@ -353,46 +353,48 @@ bool Cable::isTouched(const State& state, CableElementIndex obstacle) const {
     return get().getPath(state, "Cable::isTouched()").contacts[obstacle].isTouched;
 }
 
+int Cable::getNumArcs(const State& state, CableElementIndex obstacle) const {
+    get().getElements().getObstacle(obstacle);
+    return get().getPath(state, "Cable::getNumArcs()").contacts[obstacle].getNumArcs();
+}
+
 Real Cable::getArcLength(const State& state, CableElementIndex obstacle) const {
     get().getElements().getObstacle(obstacle);
     const ObstacleContact& contact = get().getPath(state, "Cable::getArcLength()").contacts[obstacle];
-    return contact.isTouched ? contact.geodesic.length : SimTK::NaN;
+    return contact.isTouched ? contact.calcArcLength() : SimTK::NaN;
 }
 
-bool Cable::getContactPoints(const State& state, CableElementIndex obstacle, SimTK::Vec3& P_G, SimTK::Vec3& Q_G) const {
-    get().getElements().getObstacle(obstacle);
-    const PathSolution& path = get().getPath(state, "Cable::getContactPoints()");
-    const ObstacleContact& contact = path.contacts[obstacle];
-    if (!contact.isTouched) return false;
+bool Cable::getContactPoints(const State& state, CableElementIndex obstacle, SimTK::Vec3& P_G, SimTK::Vec3& Q_G,
+                             int arc) const {
+    const ContactArc* const found = get().findArc(state, obstacle, arc, "Cable::getContactPoints()");
+    if (!found) return false;
     const Pose& X_GS = get().getPose(state).X_GE[obstacle];
-    P_G = toSimTK(X_GS * contact.geodesic.P.x);
-    Q_G = toSimTK(X_GS * contact.geodesic.Q.x);
+    P_G = toSimTK(X_GS * found->geodesic.P.x);
+    Q_G = toSimTK(X_GS * found->geodesic.Q.x);
     return true;
 }
 
 bool Cable::getContactFrames(const State& state, CableElementIndex obstacle, SimTK::Transform& X_GP,
-                             SimTK::Transform& X_GQ) const {
-    get().getElements().getObstacle(obstacle);
-    const ObstacleContact& contact = get().getPath(state, "Cable::getContactFrames()").contacts[obstacle];
-    if (!contact.isTouched) return false;
+                             SimTK::Transform& X_GQ, int arc) const {
+    const ContactArc* const found = get().findArc(state, obstacle, arc, "Cable::getContactFrames()");
+    if (!found) return false;
     const Pose& X_GS = get().getPose(state).X_GE[obstacle];
     const auto calcFrame = [&](const DarbouxFrame& frame) {
         Mat3 R_SP;
         R_SP << frame.t, frame.N, frame.B;
         return toTransform(X_GS * Pose(R_SP, frame.x));
     };
-    X_GP = calcFrame(contact.geodesic.P), X_GQ = calcFrame(contact.geodesic.Q);
+    X_GP = calcFrame(found->geodesic.P), X_GQ = calcFrame(found->geodesic.Q);
     return true;
 }
 
 bool Cable::getContactTangents(const State& state, CableElementIndex obstacle, SimTK::UnitVec3& atP_G,
-                               SimTK::UnitVec3& atQ_G) const {
-    get().getElements().getObstacle(obstacle);
-    const ObstacleContact& contact = get().getPath(state, "Cable::getContactTangents()").contacts[obstacle];
-    if (!contact.isTouched) return false;
+                               SimTK::UnitVec3& atQ_G, int arc) const {
+    const ContactArc* const found = get().findArc(state, obstacle, arc, "Cable::getContactTangents()");
+    if (!found) return false;
     const Pose& X_GS = get().getPose(state).X_GE[obstacle];
-    atP_G = SimTK::UnitVec3(toSimTK(X_GS.rotate(contact.geodesic.P.t)));
-    atQ_G = SimTK::UnitVec3(toSimTK(X_GS.rotate(contact.geodesic.Q.t)));
+    atP_G = SimTK::UnitVec3(toSimTK(X_GS.rotate(found->geodesic.P.t)));
+    atQ_G = SimTK::UnitVec3(toSimTK(X_GS.rotate(found->geodesic.Q.t)));
     return true;
 }
 
@@ -428,9 +430,9 @@ std::vector<SimTK::Vec3> Cable::calcResampledPoints(const State& state, int coun
     return get().calcResampledPoints(state, count);
 }
 
-std::vector<SimTK::Vec3> Cable::calcResampledArc(const State& state, CableElementIndex obstacle, int count) const {
-    get().getElements().getObstacle(obstacle);
-    return get().calcResampledArc(state, obstacle, count);
+std::vector<SimTK::Vec3> Cable::calcResampledArc(const State& state, CableElementIndex obstacle, int count,
+                                                 int arc) const {
+    return get().calcResampledArc(state, obstacle, count, arc);
 }
 
 void Cable::applyBodyForces(const State& state, Real tension, SimTK::Vector_<SpatialVec>& bodyForces) const {

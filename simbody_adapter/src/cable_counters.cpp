@@ -28,6 +28,10 @@ void CableCounters::countEvent(PathEvent::Kind kind) {
     switch (kind) {
         case PathEvent::Kind::Touched:
         case PathEvent::Kind::Lifted:
+        case PathEvent::Kind::Split:
+        case PathEvent::Kind::Joined:
+        case PathEvent::Kind::ArcMade:
+        case PathEvent::Kind::ArcLost:
         case PathEvent::Kind::SwitchedOff:
         case PathEvent::Kind::SwitchedOn:
             ++m_contactEvents;

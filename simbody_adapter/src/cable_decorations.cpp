@@ -36,17 +36,20 @@ SimTK::PolygonalMesh toPolygonalMesh(const SurfaceMesh& facets) {
 
 /** Where the cable touches an obstacle, in S. */
 std::vector<Vec3> getTouchedPoints(const ObstacleContact& contact) {
-    if (!contact.isTouched) return {};
-    return {contact.geodesic.P.x, contact.geodesic.Q.x};
+    std::vector<Vec3> points;
+    for (int i = 0; i < contact.getNumArcs(); ++i)
+        for (const DarbouxFrame& end : {contact.getArc(i).geodesic.P, contact.getArc(i).geodesic.Q})
+            points.push_back(end.x);
+    return points;
 }
 
-/** Frames at the ends of an arc, if there is one. */
+/** Frames at the ends of all arcs. */
 void addContactFrames(const Cable& cable, const State& state, CableElementIndex obstacle, SimTK::Real size,
                       Array_<DecorativeGeometry>& geometry) {
     Transform X_GP, X_GQ;
-    if (!cable.getContactFrames(state, obstacle, X_GP, X_GQ)) return;
-    for (const Transform& X_GF : {X_GP, X_GQ})
-        geometry.push_back(SimTK::DecorativeFrame(size).setTransform(X_GF).setLineThickness(2));
+    for (int arc = 0; cable.getContactFrames(state, obstacle, X_GP, X_GQ, arc); ++arc)
+        for (const Transform& X_GF : {X_GP, X_GQ})
+            geometry.push_back(SimTK::DecorativeFrame(size).setTransform(X_GF).setLineThickness(2));
 }
 
 void addPath(const Cable& cable, const State& state, const SimTK::Vec3& color, Array_<DecorativeGeometry>& geometry) {

@@ -29,6 +29,14 @@ ContactEvent::Kind toContactEventKind(PathEvent::Kind kind) {
             return ContactEvent::Kind::Made;
         case PathEvent::Kind::Lifted:
             return ContactEvent::Kind::Lost;
+        case PathEvent::Kind::Split:
+            return ContactEvent::Kind::Split;
+        case PathEvent::Kind::Joined:
+            return ContactEvent::Kind::Joined;
+        case PathEvent::Kind::ArcMade:
+            return ContactEvent::Kind::ArcMade;
+        case PathEvent::Kind::ArcLost:
+            return ContactEvent::Kind::ArcLost;
         case PathEvent::Kind::LeftHole:
             return ContactEvent::Kind::LeftHole;
         case PathEvent::Kind::SwitchedOff:
@@ -88,7 +96,6 @@ void CableImpl::setElement(CableElementIndex index, CableElement element) {
 void CableImpl::addHandlers(CableElementIndex index) {
     const CableElement& element = m_elements[index];
     SimTK::System& system = m_cables.updSystem();
-    m_isSplitWatched.resize(m_elements.size());
     m_isConditionWatched.resize(m_elements.size());
     if (element.isActive && !m_isConditionWatched[index]) {
         m_isConditionWatched[index] = true;
@@ -99,9 +106,6 @@ void CableImpl::addHandlers(CableElementIndex index) {
         system.addEventHandler(new ContactEventHandler(*this));
         system.addEventHandler(new BreachEventHandler(*this));
     }
-    if (element.surface->isConvex() || m_isSplitWatched[index]) return;
-    m_isSplitWatched[index] = true;
-    system.addEventHandler(new SplitEventHandler(*this, index));
 }
 
 void CableImpl::setMovingEnd(bool isOrigin, std::shared_ptr<const MovingStation> station) {
@@ -212,12 +216,13 @@ void CableImpl::findPath(const State& state, const CablePath& start, CableWorksp
 }
 
 void CableImpl::calcWitnesses(const CablePath& start, CablePath& path) const {
-    path.contactWitness = path.stabilityWitness = path.breachWitness = 1;
+    path.contactWitness = path.splitWitness = path.stabilityWitness = path.breachWitness = 1;
     if (path.rule != ContactRule::Kept) return;
     for (int e = 0; e < m_elements.size(); ++e) {
         if (!m_elements[e].surface) continue;
-        const Real witness = calcContactWitness(m_problem, path.solution, e);
+        const Real witness = calcContactWitness(m_problem, path.pose, path.solution, e);
         path.contactWitness = std::min(path.contactWitness, witness);
+        path.splitWitness = std::min(path.splitWitness, calcSplitWitness(m_problem, start.solution, path.solution, e));
         if (isSmoothWitness(path.solution.contacts[e])) path.breachWitness = std::min(path.breachWitness, witness);
     }
     path.stabilityWitness = PathTracker::calcStabilityWitness(m_problem, start, path);
@@ -254,13 +259,23 @@ const std::vector<StraightSegment>& CableImpl::getSegments(const State& state, c
     return path.segments;
 }
 
-std::vector<SimTK::Vec3> CableImpl::calcResampledArc(const State& state, CableElementIndex obstacle, int count) const {
-    const ObstacleContact& contact = getPath(state, "Cable::calcResampledArc()").contacts[obstacle];
+const ContactArc* CableImpl::findArc(const State& state, CableElementIndex obstacle, int arc,
+                                     const char* method) const {
+    m_elements.getObstacle(obstacle);
+    const ObstacleContact& contact = getPath(state, method).contacts[obstacle];
+    require(arc >= 0, "cable '", m_name, "': arc ", arc, " of obstacle '", m_elements[obstacle].name,
+            "': arcs are counted from 0");
+    return arc < contact.getNumArcs() ? &contact.getArc(arc) : nullptr;
+}
+
+std::vector<SimTK::Vec3> CableImpl::calcResampledArc(const State& state, CableElementIndex obstacle, int count,
+                                                     int arc) const {
+    const ContactArc* const found = findArc(state, obstacle, arc, "Cable::calcResampledArc()");
     require(count >= 2, "cable '", m_name, "': an arc is resampled to at least 2 points, not to ", count);
-    require(contact.isTouched, "cable '", m_name, "': obstacle '", m_elements[obstacle].name,
-            "' is not touched, there is no arc to resample");
+    require(found, "cable '", m_name, "': obstacle '", m_elements[obstacle].name, "' is not touched in an arc ", arc,
+            " that could be resampled");
     std::vector<Vec3> arc_S;
-    sampleGeodesic(*m_elements[obstacle].surface, contact.start, m_options.geodesics, count, arc_S);
+    sampleGeodesic(*m_elements[obstacle].surface, found->start, m_options.geodesics, count, arc_S);
     std::vector<SimTK::Vec3> points_G;
     for (const Vec3& p_S : arc_S) points_G.push_back(toSimTK(getPose(state).X_GE[obstacle] * p_S));
     return points_G;
@@ -283,14 +298,14 @@ std::vector<SimTK::Vec3> CableImpl::calcResampledPoints(const State& state, int 
     };
     for (const StraightSegment& line : segments) {
         addPoints(line.length, [&](Real s) { return toSimTK(Vec3(line.A + s * line.e)); });
-        const ObstacleContact& contact = path.contacts[line.toElement];
-        if (!m_elements[line.toElement].surface || !(contact.start.length > 0)) continue;
-        addPoints(contact.start.length, [&](Real s) {
-            GeodesicStart part = contact.start;
+        const ContactArc& arc = path.getArcAfter(line);
+        if (!m_elements[line.toElement].surface || !(arc.start.length > 0)) continue;
+        addPoints(arc.start.length, [&](Real s) {
+            GeodesicStart part = arc.start;
             part.length = s;
-            Geodesic arc;
-            m_elements[line.toElement].surface->shootGeodesic(part, m_options.geodesics, arc);
-            return toSimTK(getPose(state).X_GE[line.toElement] * arc.Q.x);
+            Geodesic geodesic;
+            m_elements[line.toElement].surface->shootGeodesic(part, m_options.geodesics, geodesic);
+            return toSimTK(getPose(state).X_GE[line.toElement] * geodesic.Q.x);
         });
     }
     points_G.resize(count - 1, toSimTK(segments.back().B));
@@ -339,12 +354,7 @@ Real CableImpl::calcLengthAccelerationBias(const State& state, const CablePath& 
 
 Real CableImpl::calcWitness(const State& state, CableElementIndex obstacle) const {
     const PathSolution& path = getPath(state, "Cable::getWitness()");
-    return areContactsFixed(state) ? calcContactWitness(m_problem, path, obstacle) : 1;
-}
-
-Real CableImpl::calcSplitWitness(const State& state, CableElementIndex obstacle) const {
-    const PathSolution& path = getPath(state, "Cable::calcSplitWitness()");
-    return areContactsFixed(state) ? tautline::calcSplitWitness(m_problem, getPose(state), path, obstacle) : 1;
+    return areContactsFixed(state) ? calcContactWitness(m_problem, getPose(state), path, obstacle) : 1;
 }
 
 const CablePath* CableImpl::findKeptPath(const State& state) const {
@@ -362,13 +372,6 @@ bool CableImpl::isUnsettled(const State& state) const {
     if (!keepsContacts(state)) return false;
     const CablePath& path = getCablePath(state);
     return !isHolding(path) && !path.wasSettled;
-}
-
-void CableImpl::reportSplit(const State& state, CableElementIndex obstacle) const {
-    if (isDisabled(state) || !m_listener) return;
-    m_cables.getSystem().realize(state, Stage::Velocity);
-    const Real length = getPath(state, "SplitEventHandler::handleEvent()").length, rate = getLengthRate(state);
-    m_listener({state.getTime(), m_index, obstacle, ContactEvent::Kind::Split, length, length, rate, rate});
 }
 
 const std::vector<SpatialForce>& CableImpl::getElementForces(const State& state, const char* method) const {

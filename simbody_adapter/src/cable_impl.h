@@ -63,12 +63,13 @@ public:
     /** Never none. @throws what getPath() throws, and an error in a pose that is not finite, where no path is */
     const std::vector<StraightSegment>& getSegments(const SimTK::State& state, const char* method) const;
     std::vector<SimTK::Vec3> calcResampledPoints(const SimTK::State& state, int count) const;
-    std::vector<SimTK::Vec3> calcResampledArc(const SimTK::State& state, CableElementIndex obstacle, int count) const;
+    /** One of an obstacle's arcs, or null if it has no such arc. */
+    const ContactArc* findArc(const SimTK::State& state, CableElementIndex obstacle, int arc, const char* method) const;
+    std::vector<SimTK::Vec3> calcResampledArc(const SimTK::State& state, CableElementIndex obstacle, int count,
+                                              int arc) const;
     SimTK::Real getLengthRate(const SimTK::State& state) const;
     SimTK::Real getLengthAccelerationBias(const SimTK::State& state) const;
     SimTK::Real calcWitness(const SimTK::State& state, CableElementIndex obstacle) const;
-    SimTK::Real calcSplitWitness(const SimTK::State& state, CableElementIndex obstacle) const;
-    void reportSplit(const SimTK::State& state, CableElementIndex obstacle) const;
     /** For event finders: null where contacts are not kept, or the cable is disabled. */
     const CablePath* findKeptPath(const SimTK::State& state) const;
     /** Whether the contacts of a path that keeps them fit its pose, as far as an event finder tells. */
@@ -127,7 +128,6 @@ private:
     std::optional<ContactMode> m_defaultContactMode;  ///< none: that of the subsystem
     bool m_isWatched = false;                         ///< the handlers of all obstacles have been added
     std::vector<bool> m_isConditionWatched;           ///< by element: the handler of its condition has been added
-    std::vector<bool> m_isSplitWatched;               ///< by element: so has the one of a surface that is not convex
     std::function<void(const ContactEvent&)> m_listener;
 
     PathProblem m_problem;                    ///< built at Topology

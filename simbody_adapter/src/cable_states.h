@@ -26,6 +26,7 @@ struct CablePath : TrackedPath {
     std::vector<SpatialForce> forces;  ///< of unit tension on the elements, about their origins, in ground
     double contactWitness = 1;         ///< the lowest of the obstacles, while contacts are kept
     double stabilityWitness = 1;       ///< while contacts are kept
+    double splitWitness = 1;           ///< the lowest of all obstacles; 1 unless contacts are kept
     double breachWitness = 1;          ///< see BreachEventHandler
     ContactRule rule = ContactRule::Free;
     bool wasSettled = false;        ///< its contacts were settled where it is, as far as they can be

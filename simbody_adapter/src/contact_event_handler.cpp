@@ -24,7 +24,7 @@ ContactEventHandler::ContactEventHandler(const CableImpl& cable)
 
 SimTK::Real ContactEventHandler::getValue(const SimTK::State& state) const {
     const CablePath* path = m_cable.findKeptPath(state);
-    return path ? std::min(path->contactWitness, path->stabilityWitness) : 1;
+    return path ? std::min({path->contactWitness, path->splitWitness, path->stabilityWitness}) : 1;
 }
 
 void ContactEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {
@@ -60,14 +60,6 @@ void SettlingEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) 
 ElementEventHandler::ElementEventHandler(const CableImpl& cable, CableElementIndex element)
     : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_element(element) {
     getTriggerInfo().setTriggerOnRisingSignTransition(false).setRequiredLocalizationTimeWindow(kNarrowest);
-}
-
-SimTK::Real SplitEventHandler::getValue(const SimTK::State& state) const {
-    return m_cable.isDisabled(state) ? 1 : m_cable.calcSplitWitness(state, m_element);
-}
-
-void SplitEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {
-    m_cable.reportSplit(state, m_element);
 }
 
 ConditionEventHandler::ConditionEventHandler(const CableImpl& cable, CableElementIndex point)

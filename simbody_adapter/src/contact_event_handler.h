@@ -6,10 +6,10 @@
 
 namespace tautline {
 
-/** Watches all contacts of a cable at once at Stage::Position, and whether the path as a whole still holds: that it can
-be found with its contacts kept, and is no saddle. The lowest of these witnesses, which were computed with the path.
-(One for all cables would cost a copy of a State less, and event finding more: it has a kink wherever another cable's is
-the lowest.)
+/** Watches all contacts of a cable at once at Stage::Position, how many arcs they have, and whether the path as a whole
+still holds: that it can be found with its contacts kept, and is no saddle. The lowest of these witnesses, which were
+computed with the path. (One for all cables would cost a copy of a State less, and event finding more: it has a kink
+wherever another cable's is the lowest.)
 
 Added to the System, not allocated in the CableSubsystem: Simbody 3.7 mixes up the witnesses of a subsystem of one's own
 with those of a user's handlers at later stages. */
@@ -69,15 +69,6 @@ public:
 protected:
     const CableImpl& m_cable;
     CableElementIndex m_element;
-};
-
-/** Watches whether one arc still describes how a surface that is not convex holds the cable, and reports where it no
-longer does. */
-class SplitEventHandler : public ElementEventHandler {
-public:
-    using ElementEventHandler::ElementEventHandler;
-    SimTK::Real getValue(const SimTK::State& state) const override;
-    void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
 };
 
 /** Stops a step where the condition of a point changes, since the length jumps there, and lets the contacts that

@@ -158,15 +158,14 @@ TEST(Side, OfEndlessBodiesIsAlwaysTakenOrSaid) {
     EXPECT_GT(numFollowed, 0.9 * kScenes);  // of the others neither way round has the middle of its arc there
 }
 
-// Symptom (2026-11-26): 99.098 mm round the outside, solved.
+// Symptom (2026-11-26): 99.098 mm round the outside, solved. It lies on the ring in two places.
 TEST(Ring, ThatTheStringTouchesTwiceIsNotPassedOutside) {
     const PathScene scene = makeScene(std::make_shared<Torus>(0.011, 0.0105), {},
                                       Vec3(-2.729e-3, -11.964e-3, -29.629e-3), Vec3(2.853e-3, 19.488e-3, 53.593e-3));
     const PathSolution path = scene.solve();
-    EXPECT_EQ(path.status, PathStatus::NotMinimum);
-    EXPECT_NEAR(path.length, 0.0891752584, 1e-8);
-    EXPECT_EQ(path.fault.kind, StringFault::Kind::TwoContacts);
-    EXPECT_NE(explainStatus(scene.problem, scene.pose, path).find("in two places"), std::string::npos);
+    EXPECT_EQ(path.status, PathStatus::Solved) << explainStatus(scene.problem, scene.pose, path);
+    EXPECT_EQ(path.contacts[1].getNumArcs(), 2);
+    EXPECT_LT(path.length, 0.0892);
 }
 
 /** A string that is drawn down by its ends into the groove between two spheres that overlap. */
@@ -275,9 +274,10 @@ TEST(SecondVariation, DirectionOfNegativeCurvatureLeadsDownToEitherSide) {
     const PosedProblem posed{scene.problem, scene.pose};
     SidewaysField direction;
     calcSecondVariation(posed, saddle, &direction);
-    EXPECT_EQ(direction[1].cwiseAbs().maxCoeff(), 1);
-    EXPECT_TRUE(direction[0].isZero() && direction[2].isZero());
-    const Vec3 sideways = saddle.contacts[1].geodesic.P.B * direction[1][0];
+    ASSERT_EQ(direction.size(), saddle.segments.size());
+    EXPECT_EQ(direction[0].cwiseAbs().maxCoeff(), 1);
+    EXPECT_TRUE(direction[1].isZero());
+    const Vec3 sideways = saddle.contacts[1].geodesic.P.B * direction[0][0];
     for (const double amount : {0.05, -0.05}) {
         PathSolution moved = saddle;
         ASSERT_TRUE(moveAlongNegativeCurvature(posed, amount, moved));

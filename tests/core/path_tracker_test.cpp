@@ -76,7 +76,7 @@ struct Winch {
         ASSERT_EQ(PathTracker::calcStatus(problem, path), PathStatus::Solved)
             << PathTracker::explainStatus(problem, path);
         EXPECT_NEAR(path.solution.length, calcLength(turn), 1e-9) << "turn " << turn;
-        EXPECT_GT(calcContactWitness(problem, path.solution, 1), 0);
+        EXPECT_GT(calcContactWitness(problem, path.pose, path.solution, 1), 0);
         EXPECT_GT(PathTracker::calcStabilityWitness(problem, path, path), 0);
     }
 };
@@ -198,7 +198,7 @@ struct SteppedString {
         return track(pose);
     }
     bool isEvent(const TrackedPath& path) const {
-        return calcContactWitness(problem, path.solution, 1) < 0 ||
+        return calcContactWitness(problem, path.pose, path.solution, 1) < 0 ||
                PathTracker::calcStabilityWitness(problem, start, path) < 0;
     }
     /** Steps to a height beyond an event and back to where it happens. */
@@ -258,7 +258,7 @@ TEST(PathTracker, TellsThatARingWasLeft) {
     PathPose pose = string.start.pose;
     pose.X_GE[1].p.x() = 2;
     TrackedPath path = string.track(pose);
-    ASSERT_LT(calcContactWitness(string.problem, path.solution, 1), 0);
+    ASSERT_LT(calcContactWitness(string.problem, path.pose, path.solution, 1), 0);
     const std::vector<PathEvent> events = string.tracker.resolveEvent(string.problem, string.start, path);
     ASSERT_EQ(events.size(), 1u);
     EXPECT_EQ(events[0].kind, Kind::LeftHole);
@@ -270,7 +270,7 @@ TEST(PathTracker, JudgesArcsBelowZeroByWhatTheEventFinderWatches) {
     SteppedString string(std::make_shared<Cylinder>(1), Vec3(3, 0.9, 0.2), PassOnSide{Vec3::UnitY()});
     ASSERT_TRUE(string.start.solution.contacts[1].isTouched);
     const TrackedPath just = string.trackTo(1 + 1e-7), far = string.trackTo(1.1);
-    EXPECT_LT(calcContactWitness(string.problem, just.solution, 1), 0);
+    EXPECT_LT(calcContactWitness(string.problem, just.pose, just.solution, 1), 0);
     EXPECT_EQ(PathTracker::calcStatus(string.problem, just), PathStatus::Solved);
     EXPECT_EQ(PathTracker::calcStatus(string.problem, far), PathStatus::NotMinimum);
     EXPECT_EQ(PathTracker::explainStatus(string.problem, far).rfind("the arc on 'surface' has negative length", 0), 0u);
@@ -282,7 +282,7 @@ TEST(PathTracker, SwitchesOffWhatAnEndEnters) {
     PathPose pose = string.start.pose;
     pose.X_GE[2].p = Vec3(0.5, 0.2, 0);
     TrackedPath path = string.track(pose);
-    EXPECT_EQ(calcContactWitness(string.problem, path.solution, 1), -1);
+    EXPECT_EQ(calcContactWitness(string.problem, path.pose, path.solution, 1), -1);
     string.tracker.resolveEvent(string.problem, string.start, path);
     EXPECT_FALSE(path.solution.contacts[1].isTouched);
     EXPECT_NEAR(path.solution.length, (pose.X_GE[2].p - pose.X_GE[0].p).norm(), 1e-12);

@@ -69,7 +69,7 @@ std::string classify(const PathProblem& problem, const PathPose& pose, const Pat
     const auto has = [&why](const char* words) { return why.find(words) != std::string::npos; };
     if (path.status == PathStatus::Solved) return key;
     for (const char* reason :
-         {"is inside", "in the groove", "in two places", "against the order", "still slides", "would lift inside",
+         {"is inside", "in the groove", "against the order", "still slides", "would lift inside",
           "pressure vanishes", "leaves the domain", "too short for the rounding"})
         if (has(reason) && !(has("still slides") && hasMinimumNearby(problem, pose))) return key + ", " + reason;
     return key + ", unexplained: " + why;

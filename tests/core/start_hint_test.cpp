@@ -217,15 +217,13 @@ TEST(StartThreading, FollowsAnyLineThatIsClearOfTheTube) {
     }
 }
 
-// Through the hole, and through the tube on both sides of it: the threaded string touches the ring in two places, which
-// one arc cannot say. The answer is a minimum, and says that it is not the one.
-TEST(StartThreading, SaysWhereARingIsNotThreadedAsTheLineIs) {
+// Through the hole, and through the tube on both sides of it: the threaded string lies on the ring in two places.
+TEST(StartThreading, ThreadsARingThatIsTouchedOnBothSidesOfItsHole) {
     const SingleObstacle scene(std::make_shared<Torus>(1, 0.4), {}, Vec3(-2, 0, -0.6), Vec3(2, 0, 0.6));
-    EXPECT_EQ(scene.passage().count == 1, scene.path.followsHints());
-    if (scene.path.status == PathStatus::Solved && !scene.path.followsHints()) {
-        EXPECT_EQ(explainStatus(scene.problem, scene.pose, scene.path),
-                  "a local minimum, but not through the hole of 'obstacle' as is asked for");
-    }
+    EXPECT_EQ(scene.path.status, PathStatus::Solved);
+    EXPECT_EQ(scene.path.contacts[1].getNumArcs(), 2);
+    EXPECT_EQ(scene.passage().count, 1);
+    EXPECT_TRUE(scene.path.followsHints());
 }
 
 TEST(HolePassage, KeepsAThreadedPathThroughARingThatJumps) {
@@ -292,8 +290,8 @@ TEST(HolePassage, IsMissedAlsoWhereTheNeighborIsTouchedOrLeftInTheSameStep) {
 TEST(HolePassage, IsGivenUpWhereNothingLeadsBack) {
     SingleObstacle scene(std::make_shared<Torus>(1, 0.2), {}, Vec3(0, 0.1, -3), Vec3(0.1, 0, 3));
     ASSERT_EQ(scene.passage().count, 1);
-    // Turned edge on and aside, where a string through it would have to touch it twice.
-    scene.pose.X_GE[1] = Pose(Eigen::AngleAxisd(1.5, Vec3::UnitX()).toRotationMatrix(), Vec3(1.3, 0, 0));
+    // So far aside that the string, which was 6 m long, is not found there.
+    scene.pose.X_GE[1].p = Vec3(300, 0, 0);
     scene.solve();
     EXPECT_EQ(scene.path.status, PathStatus::NotMinimum);
     EXPECT_TRUE(verifyPath(scene.problem, scene.pose, scene.path).isMinimum());
@@ -306,6 +304,17 @@ TEST(HolePassage, IsGivenUpWhereNothingLeadsBack) {
     EXPECT_FALSE(scene.path.wasCold);
     EXPECT_TRUE(scene.contact().hasLeftHole);
     EXPECT_NEAR(scene.path.length, length, 0.01);
+}
+
+// 2026-11-27: given up, since the string lies on the ring in two places: on its way in and on its way out.
+TEST(HolePassage, IsKeptWhereTheRingIsTouchedTwice) {
+    SingleObstacle scene(std::make_shared<Torus>(1, 0.2), {}, Vec3(0, 0.1, -3), Vec3(0.1, 0, 3));
+    scene.pose.X_GE[1] = Pose(Eigen::AngleAxisd(1.5, Vec3::UnitX()).toRotationMatrix(), Vec3(1.3, 0, 0));  // edge on
+    scene.solve();
+    EXPECT_EQ(scene.path.status, PathStatus::Solved);
+    EXPECT_EQ(scene.contact().getNumArcs(), 2);
+    EXPECT_FALSE(scene.contact().hasLeftHole);
+    EXPECT_EQ(scene.passage().count, 1);
 }
 
 // An end that moves around the ring takes the string out of it: nothing to report.

@@ -271,7 +271,7 @@ TEST(ContactEvents, TwoObstaclesTouchedAtOneInstantAreBothFound) {
 // The string rests on the far tube of a lying ring; its other end goes down until it meets the near
 // tube too. In the plane both tubes are circles of radius 0.2 about (-1, 0) and (1, 0): their common tangent is z =
 // 0.2.
-TEST(ContactEvents, ASecondContactOnARingIsReportedWhenItBegins) {
+TEST(ContactEvents, ASecondArcOnARingIsReportedWhenItIsMadeAndWhenItIsLost) {
     BareScene scene;
     const SimTK::Rotation upward(-SimTK::Pi / 2, SimTK::YAxis);  // a slider goes along x
     MobilizedBody::Slider end(scene.matter.Ground(), Transform(upward, SimTK::Vec3(-3, 0, 0)), makeBody(),
@@ -290,14 +290,23 @@ TEST(ContactEvents, ASecondContactOnARingIsReportedWhenItBegins) {
     SimTK::TimeStepper stepper(scene.system, integrator);
     stepper.initialize(initial);
     stepper.stepTo(2);
-    ASSERT_EQ(events.size(), 1u);
-    EXPECT_EQ(events[0].kind, Kind::Split);
-    EXPECT_EQ(events[0].obstacle, ring);
-    EXPECT_EQ(events[0].lengthBefore, events[0].lengthAfter);
     scene.system.realize(stepper.getState(), Stage::Position);
-    EXPECT_EQ(cable.calcStatus(stepper.getState()), PathStatus::NotMinimum);
+    EXPECT_EQ(cable.calcStatus(stepper.getState()), PathStatus::Solved);
+    EXPECT_EQ(cable.getNumArcs(stepper.getState(), ring), 2);
+    stepper.stepTo(4);
+    scene.system.realize(stepper.getState(), Stage::Position);
+    EXPECT_EQ(cable.getNumArcs(stepper.getState(), ring), 1);
+    ASSERT_EQ(events.size(), 2u);
+    EXPECT_EQ(events[0].kind, Kind::ArcMade);
+    EXPECT_EQ(events[1].kind, Kind::ArcLost);
     // 0.3 + 0.4 cos(1.5 t) = 0.2
-    EXPECT_NEAR(events[0].time, std::acos((0.2 - mean) / amplitude) / frequency, 1e-8);
+    const Real turn = std::acos((0.2 - mean) / amplitude);
+    EXPECT_NEAR(events[0].time, turn / frequency, 1e-8);
+    EXPECT_NEAR(events[1].time, (2 * SimTK::Pi - turn) / frequency, 1e-8);
+    for (const ContactEvent& event : events) {
+        EXPECT_EQ(event.obstacle, ring);
+        EXPECT_LT(std::abs(event.lengthAfter - event.lengthBefore), 1e-12);
+    }
 }
 
 /** A body that stands at 0 and, from t = 1 s on, at 2 m. */

@@ -67,14 +67,16 @@ private:
     /** First time in (from, to] at which a witness is negative while the contact set of `path` is kept. */
     double findFirstCrossing(const PathSolution& path, double from, double to, int& element) {
         const PathSolution atEnd = solveAt(path, to);
+        const PathPose poseAtEnd = m_pose;
         double first = to;
         element = -1;
         for (int e = 1; e + 1 < m_problem.getNumElements(); ++e) {
-            if (!(calcContactWitness(m_problem, atEnd, e) < 0)) continue;
+            if (!(calcContactWitness(m_problem, poseAtEnd, atEnd, e) < 0)) continue;
             double low = from, high = to;
             while (high - low > 1e-10) {
                 const double middle = 0.5 * (low + high);
-                (calcContactWitness(m_problem, solveAt(path, middle), e) < 0 ? high : low) = middle;
+                const PathSolution atMiddle = solveAt(path, middle);
+                (calcContactWitness(m_problem, m_pose, atMiddle, e) < 0 ? high : low) = middle;
             }
             if (element < 0 || high < first) first = high, element = e;
         }
@@ -85,7 +87,7 @@ private:
     bool wantsSwitch(const PathSolution& path) const {
         if (path.status != PathStatus::Solved) return false;  // where there is no path, witnesses tell nothing
         for (int e = 1; e + 1 < m_problem.getNumElements(); ++e)
-            if (calcContactWitness(m_problem, path, e) < 0) return true;
+            if (calcContactWitness(m_problem, m_pose, path, e) < 0) return true;
         return false;
     }
 
@@ -94,7 +96,8 @@ private:
     void locateEvents(PathSolution before, const PathSolution& after, double from, double to,
                       std::vector<FoundEvent>& events) {
         const double middle = 0.5 * (from + to);
-        if (haveSameContacts(before, after) && !wantsSwitch(solveAt(before, middle))) return;
+        const PathSolution atMiddle = solveAt(before, middle);
+        if (haveSameContacts(before, after) && !wantsSwitch(atMiddle)) return;
         followThroughEvents(before, from, middle, events);
         followThroughEvents(before, middle, to, events);
     }

@@ -9,13 +9,22 @@
 namespace tautline {
 namespace {
 
-/** The frame in the middle of an arc, shot to no more accuracy than a side needs. */
-DarbouxFrame shootToMiddle(const Surface& surface, const ObstacleContact& contact) {
-    GeodesicStart half = contact.start;
+/** Normal and place in the middle of the arcs, shot to no more accuracy than a side needs. */
+struct Middle {
+    Vec3 N, x;  ///< in S
+};
+
+Middle findMiddle(const Surface& surface, const ObstacleContact& contact) {
+    const int n = contact.getNumArcs();
+    if (n % 2 == 0) {
+        const DarbouxFrame &Q = contact.getArc(n / 2 - 1).geodesic.Q, &P = contact.getArc(n / 2).geodesic.P;
+        return {Q.N + P.N, 0.5 * (Q.x + P.x)};
+    }
+    GeodesicStart half = contact.getArc(n / 2).start;
     half.length *= 0.5;
     Geodesic geodesic;
     surface.shootGeodesic(half, kRoughlyAlong, geodesic);
-    return geodesic.Q;
+    return {geodesic.Q.N, geodesic.Q.x};
 }
 
 }  // namespace
@@ -32,17 +41,18 @@ double calcTurning(const Surface& surface, const ObstacleContact& contact, const
         turning += calcShortTurning(last, p);
         last = p;
     };
-    if (contact.isTouched) {
-        const Geodesic& arc = contact.geodesic;
+    for (int i = 0; i < contact.getNumArcs(); ++i) {
+        const GeodesicStart& start = contact.getArc(i).start;
+        const Geodesic& arc = contact.getArc(i).geodesic;
         const double curvature = std::max({std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN), 1 / surface.getSize()});
-        const double turn = std::abs(contact.start.length) * curvature;
+        const double turn = std::abs(start.length) * curvature;
         const int pieces = static_cast<int>(std::min(kMostPieces, 2 + 2 * turn));
         goTo(arc.P.x);
         if (turn < kQuarterTurn) {
             goTo(arc.Q.x);
         } else {
-            ArcWalker walker(surface, contact.start, kRoughlyAlong, pieces);
-            for (int i = 0; i < pieces; ++i) goTo(walker.next().Q.x);
+            ArcWalker walker(surface, start, kRoughlyAlong, pieces);
+            for (int k = 0; k < pieces; ++k) goTo(walker.next().Q.x);
         }
     }
     goTo(B_S);
@@ -50,24 +60,27 @@ double calcTurning(const Surface& surface, const ObstacleContact& contact, const
 }
 
 double calcTurn(const ObstacleContact& contact) {
-    const Geodesic& arc = contact.geodesic;
-    return contact.start.length * std::max(std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN));
+    double turn = 0;
+    for (int i = 0; i < contact.getNumArcs(); ++i) {
+        const Geodesic& arc = contact.getArc(i).geodesic;
+        turn += contact.getArc(i).start.length * std::max(std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN));
+    }
+    return turn;
 }
 
 Vec3 calcMiddleNormal(const Surface& surface, const ObstacleContact& contact) {
     constexpr double kFullTurn = 6;  // [rad], less than 2 pi since curvatures vary
-    const Geodesic& arc = contact.geodesic;
-    if (calcTurn(contact) > kFullTurn) return shootToMiddle(surface, contact).N;
-    return arc.P.t.dot(arc.Q.t) > 0 ? Vec3(arc.P.N + arc.Q.N) : Vec3(arc.P.t - arc.Q.t);
+    const DarbouxFrame &P = contact.geodesic.P, &Q = contact.getLastArc().geodesic.Q;
+    if (calcTurn(contact) > kFullTurn) return findMiddle(surface, contact).N;
+    return P.t.dot(Q.t) > 0 ? Vec3(P.N + Q.N) : Vec3(P.t - Q.t);
 }
 
 double calcMiddleAlong(const Surface& surface, const ObstacleContact& contact, const Vec3& direction_S) {
     constexpr double kHalfTurn = 2.5;     // [rad], less than pi since curvatures vary
     constexpr double kNearTheEdge = 0.3;  // in sizes
-    const Geodesic& arc = contact.geodesic;
-    const double ofChord = 0.5 * direction_S.dot(arc.P.x + arc.Q.x);
+    const double ofChord = 0.5 * direction_S.dot(contact.geodesic.P.x + contact.getLastArc().geodesic.Q.x);
     if (calcTurn(contact) <= kHalfTurn && std::abs(ofChord) >= kNearTheEdge * surface.getSize()) return ofChord;
-    return direction_S.dot(shootToMiddle(surface, contact).x);
+    return direction_S.dot(findMiddle(surface, contact).x);
 }
 
 }  // namespace tautline

@@ -7,7 +7,8 @@ namespace tautline {
 /** Cosine of 60 degrees: minima of one body that lie nearer to each other are few. */
 inline constexpr double kCosineOfNear = 0.5;
 
-/** How a path runs about one obstacle: by how much it turns, and where the middle of its arc lies. */
+/** How a path runs about one obstacle: by how much it turns, and where the middle of its arc lies; of several arcs, of
+all from the first to the last. */
 
 /** The angle about the z axis of S from one point to the next, the short way round, positive from x to y [rad]. */
 double calcShortTurning(const Vec3& from_S, const Vec3& to_S);

@@ -5,7 +5,7 @@ namespace tautline {
 namespace {
 
 /** Whether the geodesic of a contact is the one that would be shot from its start. */
-bool isShotFromStart(const ObstacleContact& contact, const Surface& surface, const GeodesicOptions& options) {
+bool isShotFromStart(const ContactArc& contact, const Surface& surface, const GeodesicOptions& options) {
     const Geodesic& arc = contact.geodesic;
     return contact.shot.surface == surface.getId() && contact.shot.accuracy == options.accuracy && arc.converged &&
            arc.length == contact.start.length && arc.P.x == contact.start.point.p && arc.P.t == contact.start.tangent;
@@ -39,31 +39,39 @@ bool layChain(const PathPose& pose, Chain& chain) {
     return isFinite;
 }
 
+/** The next of entries that are used again as they stand. */
+template <class Entry>
+Entry& useNext(std::vector<Entry>& entries, std::size_t& numUsed) {
+    if (numUsed == entries.size()) entries.emplace_back();
+    return entries[numUsed++];
+}
+
 }  // namespace
 
 void Chain::build(const PathProblem& problem, const PathPose& pose,
                   const std::vector<ObstacleContact>& elementContacts) {
-    // Entries are used again as they stand: shootChain() sets all that is not set here.
+    // shootChain() sets all that is not set here.
     std::size_t numContacts = 0, numSegments = 0;
-    int previousElement = -1, previousContact = -1;
-    for (int e = 0; e < problem.getNumElements(); ++e) {
-        const bool isPoint = problem.getElement(e).isPoint();
-        if (!pose.hasElement(e) || (!isPoint && !elementContacts[e].isTouched)) continue;
-        const int contact = isPoint ? -1 : static_cast<int>(numContacts);
-        if (!isPoint) {
-            if (numContacts == contacts.size()) contacts.emplace_back();
-            ChainContact& added = contacts[numContacts++];
-            added.element = e;
-            added.start = elementContacts[e].start;
-            added.segmentIn = static_cast<int>(numSegments);
-        }
+    int previousElement = -1, previousArc = 0, previousContact = -1;
+    const auto goTo = [&](int element, int arc, int contact) {
         if (previousElement >= 0) {
-            if (numSegments == segments.size()) segments.emplace_back();
-            ChainSegment& added = segments[numSegments++];
-            added.line.fromElement = previousElement, added.line.toElement = e;
+            ChainSegment& added = useNext(segments, numSegments);
+            added.line.fromElement = previousElement, added.line.toElement = element;
+            added.line.fromArc = previousArc, added.line.toArc = arc;
             added.fromContact = previousContact, added.toContact = contact;
         }
-        previousElement = e, previousContact = contact;
+        previousElement = element, previousArc = arc, previousContact = contact;
+    };
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (!pose.hasElement(e)) continue;
+        if (problem.getElement(e).isPoint()) goTo(e, 0, -1);
+        for (int arc = 0; arc < elementContacts[e].getNumArcs(); ++arc) {
+            ChainContact& added = useNext(contacts, numContacts);
+            added.element = e, added.arc = arc;
+            added.start = elementContacts[e].getArc(arc).start;
+            added.segmentIn = static_cast<int>(numSegments);
+            goTo(e, arc, static_cast<int>(numContacts) - 1);
+        }
     }
     contacts.resize(numContacts);
     segments.resize(numSegments);
@@ -80,7 +88,7 @@ bool shootUnknownArcs(const PathProblem& problem, const PathPose& pose, const Ge
     numShots = 0;
     for (ChainContact& contact : chain.contacts) {
         const Surface& surface = *problem.getElement(contact.element).surface;
-        const ObstacleContact& known = elementContacts[contact.element];
+        const ContactArc& known = elementContacts[contact.element].getArc(contact.arc);
         if (isShotFromStart(known, surface, options)) {
             contact.geodesic = known.geodesic;
         } else {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/** A chain is the path's fixed points and touched obstacles ("contacts") in order, with a straight segment between each
-and the next. All vectors in ground. */
+/** A chain is the path's fixed points and arcs ("contacts": an obstacle has as many as it has arcs) in order, with a
+straight segment between each and the next. All vectors in ground. */
 #include <vector>
 
 #include "tautline/paths/path_problem.h"
@@ -9,9 +9,10 @@ and the next. All vectors in ground. */
 
 namespace tautline {
 
-/** A touched obstacle of a chain. */
+/** An arc of a chain. */
 struct ChainContact {
     int element = -1;
+    int arc = 0;          ///< which of the element's
     int segmentIn = -1;   ///< the segment that ends at P; the next one, segmentIn + 1, begins at Q
     GeodesicStart start;  ///< in S
     Geodesic geodesic;    ///< in S

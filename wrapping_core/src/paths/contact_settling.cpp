@@ -27,7 +27,7 @@ int findLowestWitness(const PathProblem& problem, const PathPose& pose, const Pa
     int worst = -1;
     double lowest = kWitnessRounding;
     PosedProblem{problem, pose}.forEachObstacle([&](int e) {
-        const double witness = calcContactWitness(problem, path, e);
+        const double witness = calcContactWitness(problem, pose, path, e);
         if (witness < lowest) lowest = witness, worst = e;
     });
     return worst;

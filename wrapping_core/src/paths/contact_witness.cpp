@@ -28,27 +28,60 @@ double calcReturnHeight(const Surface& surface, const Pose& X_GS, const Straight
     return place ? place->height / size : 1;
 }
 
+/** The least of -kappaN along an arc, above what counts as pressure all along (kVerificationRounding). Where it is least
+at the end of a bridge, the width of that tells more: to rounding of the path error the end lies on either side of where
+the pressure vanishes. */
+double calcPressure(const Surface& surface, const ObstacleContact& contact, int i) {
+    const ContactArc& arc = contact.getArc(i);
+    const double largest = calcLargestNormalCurvature(surface, arc.start, arc.geodesic);
+    const bool isAfterBridge = i > 0, isBeforeBridge = i + 1 < contact.getNumArcs();
+    if ((isAfterBridge && largest <= arc.geodesic.P.kappaN) || (isBeforeBridge && largest <= arc.geodesic.Q.kappaN))
+        return kInfinity;
+    return 2 * kVerificationRounding / surface.getSize() - largest;
+}
+
 }  // namespace
 
-double calcContactWitness(const PathProblem& problem, const PathSolution& path, int element) {
+SurfaceReturn findSurfaceReturn(const PathProblem& problem, const PathPose& pose, const PathSolution& path,
+                                int element) {
+    SurfaceReturn lowest;
+    const Surface& surface = *problem.getElement(element).surface;
+    if (surface.isConvex()) return lowest;
+    for (std::size_t j = 0; j < path.segments.size(); ++j) {
+        const StraightSegment& line = path.segments[j];
+        if (line.fromElement != element && line.toElement != element) continue;
+        const double height = calcReturnHeight(surface, pose.X_GE[element], line);
+        if (height < lowest.height) lowest = {static_cast<int>(j), height};
+    }
+    return lowest;
+}
+
+double calcContactWitness(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int element) {
     const ObstacleContact& contact = path.contacts[element];
     // An end inside leaves no path over the obstacle: it must be off, and then nothing is watched.
     if (contact.isSwitchedOff) return contact.isTouched ? -1 : 1;
     // A string that has left a ring has gone through it since the path that this one was continued from.
     if (contact.hasLeftHole) return -1;
-    if (contact.isTouched) return makeWitness(contact.start.length / problem.getElement(element).surface->getSize());
-    return makeWitness(contact.clearance.distance * contact.clearance.scale - kContactTolerance);
+    if (!contact.isTouched)
+        return makeWitness(contact.clearance.distance * contact.clearance.scale - kContactTolerance);
+    const double shortest = contact.getArc(findShortestArc(contact)).start.length;
+    const double height = findSurfaceReturn(problem, pose, path, element).height;
+    return makeWitness(std::min(shortest / problem.getElement(element).surface->getSize(), height));
 }
 
-double calcSplitWitness(const PathProblem& problem, const PathPose& pose, const PathSolution& path, int element) {
+double calcSplitWitness(const PathProblem& problem, const PathSolution& start, const PathSolution& path, int element) {
     const Surface& surface = *problem.getElement(element).surface;
     const ObstacleContact& contact = path.contacts[element];
     if (!contact.isTouched || surface.isConvex()) return 1;
-    double witness = -calcLargestNormalCurvature(surface, contact.start, contact.geodesic) * surface.getSize();
+    double pressure = 1, width = 1;
+    for (int i = 0; i < contact.getNumArcs(); ++i)
+        pressure = std::min(pressure, calcPressure(surface, contact, i) * surface.getSize());
     for (const StraightSegment& line : path.segments)
-        if (line.fromElement == element || line.toElement == element)
-            witness = std::min(witness, calcReturnHeight(surface, pose.X_GE[element], line));
-    return makeWitness(witness);
+        if (line.fromElement == element && line.toElement == element)
+            width = std::min(width, line.length / surface.getSize());
+    const int before = start.isEmpty() ? 0 : start.contacts[element].getNumArcs(), now = contact.getNumArcs();
+    if (before == 0 || now == before) return makeWitness(std::min(pressure, width * width));
+    return makeWitness(-std::abs(now > before ? width * width : pressure));
 }
 
 }  // namespace tautline

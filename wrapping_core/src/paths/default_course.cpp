@@ -79,10 +79,12 @@ bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e,
                      const RoutePlace& route) {
     const ObstacleContact& contact = path.contacts[e];
     if (contact.isTouched && !(calcTurn(contact) < 2 * kPi)) return false;
+    if (contact.getNumArcs() > 1) return false;  // there may be a minimum for every choice of places
     if (contact.isTouched && !scene.isBetweenPoints(path, in, out)) return false;
     const Vec3 N =
         contact.isTouched ? calcMiddleNormal(scene.getSurface(e), contact).normalized() : contact.clearance.N;
-    const bool isShort = !contact.isTouched || contact.geodesic.P.t.dot(contact.geodesic.Q.t) > kCosineOfShortArc;
+    const bool isShort =
+        !contact.isTouched || contact.geodesic.P.t.dot(contact.getLastArc().geodesic.Q.t) > kCosineOfShortArc;
     return isShort && N.dot(calcDefaultSide(scene, e, route.waypoints, route.from_G, route.to_G)) > kCosineOfSameSide;
 }
 
@@ -90,12 +92,12 @@ bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e,
 minimum, and there may be one more where it lies round most of the tube. */
 bool liesWhereEndsPull(const PosedProblem& scene, int e, const ObstacleContact& contact, const RoutePlace& route) {
     if (!contact.isTouched) return true;
-    if (!(calcTurn(contact) < kPi)) return false;
+    if (contact.getNumArcs() > 1 || !(calcTurn(contact) < kPi)) return false;
     const Vec3 axis = scene.getSurface(e).getHole()->getAxis();
     const Pose& X_GS = scene.getPose(e);
     const auto calcAside = [&](const Vec3& v) { return Vec3(v - axis.dot(v) * axis).normalized(); };
     const Vec3 pull = X_GS.shiftBack(route.from_G).normalized() + X_GS.shiftBack(route.to_G).normalized();
-    return calcAside(pull).dot(calcAside(contact.geodesic.P.x + contact.geodesic.Q.x)) > kCosineOfNear;
+    return calcAside(pull).dot(calcAside(contact.geodesic.P.x + contact.getLastArc().geodesic.Q.x)) > kCosineOfNear;
 }
 
 }  // namespace

@@ -294,13 +294,6 @@ double ElasticBand::calcHeight(const PathProblem& problem, const Hold& hold, int
     return surface.calcHeight(hold.X_GS.shiftBack(m_nodes[node])) / surface.getSize();
 }
 
-/** True if the string is clear of the surface somewhere between its first and its last contact. */
-bool ElasticBand::leavesAndReturns(const PathProblem& problem, const Hold& hold) const {
-    for (int k = hold.first + 1; hold.touches() && k < hold.last; ++k)
-        if (calcHeight(problem, hold, k) > kTouching) return true;
-    return false;
-}
-
 bool ElasticBand::restsOn(const PathProblem& problem, const Hold& hold, int node) const {
     return !hold.isSwitchedOff && hold.from < node && node < hold.to && calcHeight(problem, hold, node) < kTouching;
 }
@@ -330,8 +323,6 @@ bool ElasticBand::liesInGroove(const PathProblem& problem, const Hold& hold, con
 StringFault ElasticBand::findFault(const PathProblem& problem) const {
     if (const std::vector<StringFault> grooves = findGrooves(problem); !grooves.empty()) return grooves.front();
     for (const Hold& hold : m_holds)
-        if (leavesAndReturns(problem, hold)) return {StringFault::Kind::TwoContacts, hold.element, -1};
-    for (const Hold& hold : m_holds)
         if (!m_isAtRest && hold.touches()) return {StringFault::Kind::Sliding, hold.element, -1};
     if (!m_isAtRest) return {StringFault::Kind::Sliding, -1, -1};
     return {};
@@ -355,16 +346,39 @@ void ElasticBand::disturb() {
 
 void ElasticBand::extractContacts(const PosedProblem& scene, std::vector<ObstacleContact>& contacts) const {
     contacts.resize(scene.size());
-    for (ObstacleContact& contact : contacts) contact.isTouched = contact.isSwitchedOff = false;
+    for (ObstacleContact& contact : contacts) {
+        contact.isTouched = contact.isSwitchedOff = false;
+        contact.furtherArcs.clear();
+    }
     for (const Hold& hold : m_holds) {
         ObstacleContact& contact = contacts[hold.element];
         contact.isSwitchedOff = hold.isSwitchedOff;
         contact.isTouched = hold.touches() && !hold.isSwitchedOff;
         if (!contact.isTouched) continue;
-        const std::vector<Vec3> touching(m_nodes.begin() + hold.first, m_nodes.begin() + hold.last + 1);
-        contact.start = calcArcAlong(scene.getSurface(hold.element), scene.getPose(hold.element),
-                                     m_nodes[hold.first - 1], touching, m_nodes[hold.last + 1]);
+        // From contact to contact, but not over nodes that are clear of the surface between.
+        int numArcs = 0, first = hold.first;
+        const auto addArc = [&](int last) {
+            if (numArcs++ > 0) contact.furtherArcs.emplace_back();
+            contact.updArc(numArcs - 1) = makeArc(scene, hold, first, last);
+        };
+        for (int k = hold.first + 1; k <= hold.last; ++k) {
+            if (!(calcHeight(scene.problem, hold, k) > kTouching)) continue;
+            const int last = k - 1;
+            while (calcHeight(scene.problem, hold, k) > kTouching && k < hold.last) ++k;
+            addArc(last);
+            first = k;
+        }
+        addArc(hold.last);
     }
+}
+
+/** The arc next to the nodes from one to another. */
+ContactArc ElasticBand::makeArc(const PosedProblem& scene, const Hold& hold, int first, int last) const {
+    const std::vector<Vec3> touching(m_nodes.begin() + first, m_nodes.begin() + last + 1);
+    ContactArc arc;
+    arc.start = calcArcAlong(scene.getSurface(hold.element), scene.getPose(hold.element), m_nodes[first - 1], touching,
+                             m_nodes[last + 1]);
+    return arc;
 }
 
 }  // namespace tautline

@@ -31,7 +31,7 @@ public:
     /** Contact set, geodesic starts (touched) and switched-off obstacles as the string shows them. */
     void extractContacts(const PosedProblem& scene, std::vector<ObstacleContact>& contacts) const;
 
-    /** Why the relaxed string is no smooth path with one arc on each surface, if it is not. */
+    /** Why the relaxed string is no smooth path, if it is not. */
     StringFault findFault(const PathProblem& problem) const;
 
     /** All pairs of obstacles in the groove between which the band lies, or that it meets out of order. */
@@ -74,7 +74,7 @@ private:
     void moveNode(int node, const Vec3& x);
     void pushOut(const PathProblem& problem, int node, double& room);
     double calcHeight(const PathProblem& problem, const Hold& hold, int node) const;
-    bool leavesAndReturns(const PathProblem& problem, const Hold& hold) const;
+    ContactArc makeArc(const PosedProblem& scene, const Hold& hold, int first, int last) const;
     bool liesInGroove(const PathProblem& problem, const Hold& hold, const Hold& other) const;
     bool restsOn(const PathProblem& problem, const Hold& hold, int node) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paths/local_solver.h"
 
+#include "paths/arc_changes.h"
 #include "paths/reversed_tangents.h"
 #include "paths/search_limits.h"
 #include "paths/second_variation.h"
@@ -13,6 +14,13 @@ namespace {
 
 using Condition = PathVerification::Condition;
 
+/** Whether a path may lie on an obstacle in several arcs. */
+bool hasHollows(const PosedProblem& scene) {
+    for (int e = 0; e < scene.size(); ++e)
+        if (scene.isObstacle(e) && !scene.getSurface(e).isConvex()) return true;
+    return false;
+}
+
 /** Below zero by how much an obstacle that is lifted, but could be touched, is penetrated beyond the tolerance of
 contact; else 0. */
 double calcExcess(const ObstacleContact& contact) {
@@ -21,19 +29,27 @@ double calcExcess(const ObstacleContact& contact) {
     return depth < kContactTolerance ? depth : 0;
 }
 
-/** @return the touched obstacle whose arc is the most negative, or that has swallowed an end; -1 if there is none */
-int findArcToLift(const PosedProblem& scene, const PathSolution& path) {
-    int lift = -1;
+/** The arc that is the most negative, or the first of an obstacle that has swallowed an end; none: a minimum. */
+PathVerification findArcToLift(const PosedProblem& scene, const PathSolution& path) {
+    PathVerification lift;
     double shortest = kShortestArc;
     scene.forEachObstacle([&](int e) {
         const ObstacleContact& contact = path.contacts[e];
-        if (!contact.isTouched) return;
-        const double length = contact.isSwitchedOff ? -kInfinity : contact.start.length / scene.getSurface(e).getSize();
-        if (!(length < shortest)) return;
-        shortest = length;
-        lift = e;
+        for (int i = 0; i < contact.getNumArcs(); ++i) {
+            const double length = contact.getArc(i).start.length / scene.getSurface(e).getSize();
+            const double judged = contact.isSwitchedOff ? -kInfinity : length;
+            if (!(judged < shortest)) continue;
+            shortest = judged;
+            lift.condition = Condition::NegativeLength, lift.element = e, lift.arc = i;
+        }
     });
     return lift;
+}
+
+int countFurtherArcs(const PathSolution& path) {
+    int count = 0;
+    for (const ObstacleContact& contact : path.contacts) count += static_cast<int>(contact.furtherArcs.size());
+    return count;
 }
 
 /** @return the lifted obstacle that a segment penetrates most, -1 if there is none */
@@ -68,7 +84,7 @@ PathVerification LocalSolver::solve(const PosedProblem& scene, PathSolution& pat
     int numRepairs = 0;
     for (int change = 0;; ++change) {
         const PathVerification broken = findBrokenCondition(scene, path);
-        if (broken.isMinimum() || change >= calcMaxContactChanges(scene.size())) return broken;
+        if (broken.isMinimum() || change >= calcMaxContactChanges(scene.size() + countFurtherArcs(path))) return broken;
         if (broken.condition == Condition::Unstable && !effort.leavesSaddles) return broken;
         if (!act(scene, broken, numRepairs, path)) return broken;
     }
@@ -79,7 +95,7 @@ PathVerification LocalSolver::findBrokenCondition(const PosedProblem& scene, Pat
     const bool isStationary = findForwardPath(scene, path);
     updateClearances(scene, path);
     if (!isStationary) return {Condition::NotStationary, -1};
-    if (const int e = findArcToLift(scene, path); e >= 0) return {Condition::NegativeLength, e};
+    if (const PathVerification lift = findArcToLift(scene, path); !lift.isMinimum()) return lift;
     if (const int e = findDeepest(scene, path); e >= 0) return {Condition::Penetration, e};
     watchNearestPlaces(scene, path);
     if (const int e = findDeepest(scene, path); e >= 0) return {Condition::Penetration, e};
@@ -90,11 +106,16 @@ PathVerification LocalSolver::findBrokenCondition(const PosedProblem& scene, Pat
 bool LocalSolver::act(const PosedProblem& scene, const PathVerification& broken, int& numRepairs, PathSolution& path) {
     switch (broken.condition) {
         case Condition::NegativeLength:
-            liftContact(path.contacts[broken.element]);
+            if (path.contacts[broken.element].isSwitchedOff)
+                liftContact(path.contacts[broken.element]);
+            else
+                liftArc(broken.arc, path.contacts[broken.element]);
             return true;
         case Condition::Penetration:
-            if (path.contacts[broken.element].isTouched) return false;
-            touchDeepest(scene, path);
+            if (path.contacts[broken.element].isTouched)
+                touchAgain(scene, broken.element, broken.segment, path);
+            else
+                touchDeepest(scene, path);
             return true;
         case Condition::ReversedTangent:
             if (++numRepairs > kMaxRepairs) return false;
@@ -127,13 +148,25 @@ void LocalSolver::touchDeepest(const PosedProblem& scene, PathSolution& path) {
 
 bool LocalSolver::findStationaryPath(const PosedProblem& scene, PathSolution& path) {
     m_numDescents = Effort::kUnlimited;
+    return solveArcs(scene, path);
+}
+
+/** Solves the contact set with as many arcs on each obstacle as the string has there. One that has no path may be one
+of too many arcs. */
+bool LocalSolver::solveArcs(const PosedProblem& scene, PathSolution& path) {
+    if (!hasHollows(scene)) return solveContacts(scene, path);
+    for (int change = 0; change < kMaxArcChanges; ++change) {
+        const bool isStationary = solveContacts(scene, path);
+        const bool isChanged =
+            isStationary ? joinArcs(scene, path) || splitArcs(scene, path) : joinNearestArcs(scene, path);
+        if (!isChanged) return isStationary;
+    }
     return solveContacts(scene, path);
 }
 
 /** Newton's method, else the minimizer from the same starts. */
 bool LocalSolver::solveContacts(const PosedProblem& scene, PathSolution& path) {
-    m_starts.resize(path.contacts.size());
-    for (std::size_t e = 0; e < path.contacts.size(); ++e) m_starts[e] = path.contacts[e].start;
+    rememberStarts(path);
     if (m_newton.iterate(scene.problem, scene.pose, path)) return true;
     restoreStarts(path);
     return minimize(scene, path);
@@ -141,7 +174,7 @@ bool LocalSolver::solveContacts(const PosedProblem& scene, PathSolution& path) {
 
 /** A stationary path that turns back at an arc gives way to the minimizer's, if that does not. */
 bool LocalSolver::findForwardPath(const PosedProblem& scene, PathSolution& path) {
-    if (!solveContacts(scene, path)) return false;
+    if (!solveArcs(scene, path)) return false;
     if (!hasReversedTangent(scene, path)) return true;
     m_reversed = path;
     restoreStarts(path);
@@ -158,9 +191,15 @@ bool LocalSolver::minimize(const PosedProblem& scene, PathSolution& path) {
     return path.pathError < kNearlyStationary && m_newton.iterate(scene.problem, scene.pose, path);
 }
 
+void LocalSolver::rememberStarts(const PathSolution& path) {
+    m_starts.clear();
+    forEachArc(path.contacts, [&](const ContactArc& arc) { m_starts.push_back(arc.start); });
+}
+
 /** The starts from which the last contact set was solved. */
 void LocalSolver::restoreStarts(PathSolution& path) const {
-    for (std::size_t e = 0; e < path.contacts.size(); ++e) path.contacts[e].start = m_starts[e];
+    auto start = m_starts.begin();
+    forEachArc(path.contacts, [&](ContactArc& arc) { arc.start = *start++; });
 }
 
 /** Downhill from where Newton's method began, as a string would fall; if that too ends on a saddle, from there along

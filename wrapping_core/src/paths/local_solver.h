@@ -15,12 +15,15 @@ that is broken, and acts on it:
 |-----------------|-----------------------------------------------------------|--------------------------------------|
 | None            | done: a minimum                                           |                                      |
 | NotStationary   | given up                                                  |                                      |
-| NegativeLength  | the obstacle is lifted                                    | thesis Sec. 6.3                      |
-| Penetration     | the deepest obstacle of each straight segment is touched; | thesis Sec. 6.2, 7.6                 |
-|                 | given up where a segment meets the surface it has left    | one arc cannot say that              |
+| NegativeLength  | the arc is lifted                                         | thesis Sec. 6.3                      |
+| Penetration     | the deepest obstacle of each straight segment is touched, | thesis Sec. 6.2, 7.6                 |
+|                 | or once more where a segment meets the surface it left    | arc_changes.h                        |
 | ReversedTangent | the arc is turned round to where e = t                    | Eqn. 4.3: eps vanishes at e = -t too |
 | Unstable        | along the direction of negative curvature, then downhill  | More and Sorensen 1979               |
 | others          | given up: only a band that bends inside an arc leads on   | elastic_band.h                       |
+
+To solve the path error of a contact set includes how many arcs an obstacle has: they split over hollows and join again
+(arc_changes.h), which leaves the length three times continuously differentiable.
 
 Holds the workspace; answers do not depend on it. */
 class LocalSolver {
@@ -47,15 +50,17 @@ private:
     PathVerification findBrokenCondition(const PosedProblem& scene, PathSolution& path);
     bool act(const PosedProblem& scene, const PathVerification& broken, int& numRepairs, PathSolution& path);
     bool solveContacts(const PosedProblem& scene, PathSolution& path);
+    bool solveArcs(const PosedProblem& scene, PathSolution& path);
     bool findForwardPath(const PosedProblem& scene, PathSolution& path);
     void touchDeepest(const PosedProblem& scene, PathSolution& path);
     void leaveSaddle(const PosedProblem& scene, PathSolution& path);
+    void rememberStarts(const PathSolution& path);
     void restoreStarts(PathSolution& path) const;
     bool minimize(const PosedProblem& scene, PathSolution& path);
 
     PathNewton m_newton;
     LengthMinimizer m_minimizer;
-    std::vector<GeodesicStart> m_starts;  ///< of the last contact set, by element
+    std::vector<GeodesicStart> m_starts;  ///< of the last contact set, arc by arc
     int m_numDescents = 0;                ///< iterations that the minimizer may still do
     std::vector<int> m_deepest;           ///< by segment: the obstacle that it penetrates most, or -1
     PathSolution m_reversed;

@@ -72,9 +72,11 @@ int findVanishingPressure(const PathProblem& problem, const PathSolution& path) 
     constexpr double kVanishing = 0.05;  // of 1/size
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const ObstacleContact& contact = path.contacts[e];
-        if (problem.getElement(e).isPoint() || !contact.isTouched) continue;
-        const double kappaN = std::max(contact.geodesic.P.kappaN, contact.geodesic.Q.kappaN);
-        if (kappaN * problem.getElement(e).surface->getSize() > -kVanishing) return e;
+        if (problem.getElement(e).isPoint()) continue;
+        for (int i = 0; i < contact.getNumArcs(); ++i) {
+            const Geodesic& arc = contact.getArc(i).geodesic;
+            if (std::max(arc.P.kappaN, arc.Q.kappaN) * problem.getElement(e).surface->getSize() > -kVanishing) return e;
+        }
     }
     return -1;
 }
@@ -83,9 +85,12 @@ int findVanishingPressure(const PathProblem& problem, const PathSolution& path) 
 int findOutsideDomain(const PathProblem& problem, const PathSolution& path) {
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const ObstacleContact& contact = path.contacts[e];
-        if (problem.getElement(e).isPoint() || !contact.isTouched) continue;
+        if (problem.getElement(e).isPoint()) continue;
         const Surface& surface = *problem.getElement(e).surface;
-        if (!surface.isInDomain(contact.start.point) || !surface.isInDomain(contact.geodesic.endPoint)) return e;
+        for (int i = 0; i < contact.getNumArcs(); ++i) {
+            const ContactArc& arc = contact.getArc(i);
+            if (!surface.isInDomain(arc.start.point) || !surface.isInDomain(arc.geodesic.endPoint)) return e;
+        }
     }
     return -1;
 }
@@ -101,7 +106,15 @@ const StraightSegment* findRoundedSegment(const PathSolution& path) {
 /** Two obstacles of which the arc on one passes below the surface of the other: they overlap where the path passes. */
 StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     constexpr int kSamples = 9;  // of an arc
-    std::vector<Vec3> arc_S;
+    std::vector<Vec3> arc_S, one_S;
+    const auto sampleArcs = [&](int e) {
+        arc_S.clear();
+        for (int i = 0; i < path.contacts[e].getNumArcs(); ++i) {
+            sampleGeodesic(*problem.getElement(e).surface, path.contacts[e].getArc(i).start, kAlongArc, kSamples,
+                           one_S);
+            arc_S.insert(arc_S.end(), one_S.begin(), one_S.end());
+        }
+    };
     const auto isBelow = [&](int e, int other) {
         const Surface& surface = *problem.getElement(other).surface;
         return std::any_of(arc_S.begin(), arc_S.end(), [&](const Vec3& p_S) {
@@ -111,7 +124,7 @@ StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const 
     };
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (problem.getElement(e).isPoint() || !path.contacts[e].isTouched) continue;
-        sampleGeodesic(*problem.getElement(e).surface, path.contacts[e].start, kAlongArc, kSamples, arc_S);
+        sampleArcs(e);
         for (int other = 0; other < problem.getNumElements(); ++other)
             if (other != e && !problem.getElement(other).isPoint() && path.contacts[other].isTouched &&
                 isBelow(e, other))
@@ -131,7 +144,7 @@ std::string describe(const StringFault& fault, const PathProblem& problem) {
     if (fault.kind == StringFault::Kind::OutOfOrder)
         return "the string would meet " + quoteName(problem, fault.other) + " before " +
                quoteName(problem, fault.element) + ", against the order of the path";
-    return "the string touches " + quoteName(problem, fault.element) + " in two places";
+    return "the string does not come to rest";
 }
 
 /** Why the string that was laid anew came to no better path, ": " before it; empty if that is not known. */
@@ -204,11 +217,7 @@ std::string explainNotMinimum(const PathProblem& problem, const PathPose& pose, 
     const Vec3& place = verification.place_G;
     std::ostringstream text;
     text << describe(verification, problem) << " at (" << place.x() << ", " << place.y() << ", " << place.z() << ")";
-    // What passes below the very surface that it has left would touch it again.
-    if (verification.condition == Condition::Penetration && path.contacts[verification.element].isTouched)
-        text << ": " << describe({StringFault::Kind::TwoContacts, verification.element, -1}, problem);
-    else
-        text << describeCause(problem, pose, path);
+    text << describeCause(problem, pose, path);
     return text.str();
 }
 

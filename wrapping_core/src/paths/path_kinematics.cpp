@@ -43,7 +43,7 @@ void calcDrawingPoints(const PathSolution& path, const PathProblem& problem, con
     for (const StraightSegment& segment : path.segments) {
         points_G.push_back(segment.A);
         points_G.push_back(segment.B);
-        const ObstacleContact& contact = path.contacts[segment.toElement];
+        const ContactArc& contact = path.getArcAfter(segment);
         if (problem.getElement(segment.toElement).isPoint() || !(contact.geodesic.length > 0)) continue;
         const Geodesic& arc = contact.geodesic;
         const double curvature = std::max({std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN), std::abs(arc.maxKappaN),

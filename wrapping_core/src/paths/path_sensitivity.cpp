@@ -51,7 +51,7 @@ void PathSensitivity::setPath(const PathProblem& problem, const PathPose& pose, 
             w.chain.segments.size(), " straight segments, but the path has ", path.segments.size());
     w.problem = &problem, w.pose = &pose;
     for (ChainContact& contact : w.chain.contacts) {
-        contact.geodesic = path.contacts[contact.element].geodesic;
+        contact.geodesic = path.contacts[contact.element].getArc(contact.arc).geodesic;
         contact.P = contact.geodesic.P.reexpressedBy(pose.X_GE[contact.element]);
         contact.Q = contact.geodesic.Q.reexpressedBy(pose.X_GE[contact.element]);
     }
@@ -90,8 +90,10 @@ void PathSensitivity::Workspace::addXiRates(PathVariation& variation) {
         const Vec4 xiRate = Eigen::Map<const Vec4>(&rates[kVariations * i]);
         BRates[contact.segmentIn] += calcStartVariations(contact.P).x * xiRate;
         ARates[contact.segmentIn + 1] += calcEndVariations(contact.Q, contact.geodesic).x * xiRate;
-        variation.xiRate[contact.element] = xiRate;
-        variation.PRate[contact.element] = BRates[contact.segmentIn];
+        if (contact.arc == 0) {
+            variation.xiRate[contact.element] = xiRate;
+            variation.PRate[contact.element] = BRates[contact.segmentIn];
+        }
         variation.QRate[contact.element] = ARates[contact.segmentIn + 1];
     }
 }
@@ -130,10 +132,12 @@ bool PathSensitivity::calcVariation(const std::vector<SpatialVelocity>& V_GE, Pa
 bool PathSensitivity::predictStarts(const std::vector<SpatialVelocity>& V_GE, double dt, PathSolution& path) {
     Workspace& w = *m_workspace;
     if (!calcVariation(V_GE, w.prediction)) return false;
-    for (const ChainContact& contact : w.chain.contacts) {
-        ObstacleContact& start = path.contacts[contact.element];
-        start.start = calcCorrectedStart(*w.problem->getElement(contact.element).surface, start.start, start.geodesic.P,
-                                         dt * w.prediction.xiRate[contact.element]);
+    for (std::size_t i = 0; i < w.chain.contacts.size(); ++i) {
+        const ChainContact& contact = w.chain.contacts[i];
+        ContactArc& arc = path.contacts[contact.element].updArc(contact.arc);
+        const Vec4 xiRate = Eigen::Map<const Vec4>(&w.rates[kVariations * i]);
+        arc.start =
+            calcCorrectedStart(*w.problem->getElement(contact.element).surface, arc.start, arc.geodesic.P, dt * xiRate);
     }
     return true;
 }

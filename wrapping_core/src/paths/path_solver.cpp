@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/arc_changes.h"
 #include "paths/point_path.h"
 #include "paths/posed_problem.h"
 #include "paths/reversed_tangents.h"
@@ -40,12 +41,16 @@ bool isLaidFromPrevious(const PathSolution& path) {
 }
 
 /** How far apart two paths run about an obstacle: the larger of the distances of their first contact points and of the
-lengths of their arcs, in sizes; infinite where only one touches. */
+lengths of their arcs, in sizes; infinite where they do not have the same arcs. */
 double calcDifference(const PathElement& obstacle, const ObstacleContact& a, const ObstacleContact& b) {
-    if (a.isTouched != b.isTouched) return kInfinity;
-    if (!a.isTouched) return 0;
-    const double apart = (a.geodesic.P.x - b.geodesic.P.x).norm();
-    return std::max(apart, std::abs(a.start.length - b.start.length)) / obstacle.surface->getSize();
+    if (a.getNumArcs() != b.getNumArcs()) return kInfinity;
+    double largest = 0;
+    for (int i = 0; i < a.getNumArcs(); ++i) {
+        const ContactArc &ofA = a.getArc(i), &ofB = b.getArc(i);
+        largest = std::max(
+            {largest, (ofA.geodesic.P.x - ofB.geodesic.P.x).norm(), std::abs(ofA.start.length - ofB.start.length)});
+    }
+    return largest / obstacle.surface->getSize();
 }
 
 /** The obstacle about which two paths of a problem with obstacles run farthest apart. */
@@ -70,7 +75,7 @@ struct PathSolver::Workspace {
     PathPose workingPose;
     Vec3 origin_G = Vec3::Zero();  ///< of the frame of the working pose
     std::vector<EndHeight> endHeights;
-    std::vector<double> startLengths;  ///< of the arcs by element, while contacts are kept
+    std::vector<double> startLengths;  ///< of the arcs in path order, while contacts are kept
     PathSolution cold;
 };
 
@@ -202,8 +207,8 @@ void PathSolver::moveToGround(PathSolution& path) const {
 bool PathSolver::findKeptPath(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
     const PosedProblem scene{problem, pose};
     std::vector<double>& startLengths = m_workspace->startLengths;
-    startLengths.resize(path.contacts.size());
-    for (std::size_t e = 0; e < path.contacts.size(); ++e) startLengths[e] = path.contacts[e].start.length;
+    startLengths.clear();
+    forEachArc(path.contacts, [&](const ContactArc& arc) { startLengths.push_back(arc.start.length); });
     for (int repair = 0; m_workspace->search.updLocalSolver().findStationaryPath(scene, path); ++repair) {
         if (!hasReversedTangent(scene, path)) return true;
         if (repair == kMaxRepairs) return false;

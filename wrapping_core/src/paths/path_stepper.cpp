@@ -88,13 +88,13 @@ void PathStepper::store(PathSolution& path) const {
     path.segments.resize(m_chain.segments.size());
     for (std::size_t j = 0; j < m_chain.segments.size(); ++j) path.segments[j] = m_chain.segments[j].line;
     for (const ChainContact& from : m_chain.contacts) {
-        ObstacleContact& to = path.contacts[from.element];
+        path.contacts[from.element].segment = -1;
+        ContactArc& to = path.contacts[from.element].updArc(from.arc);
         to.start = from.start;
         to.start.point.p = from.geodesic.P.x;  // of (u, v), to the last digit
         to.start.tangent = from.geodesic.P.t;
         to.geodesic = from.geodesic;
         to.shot = {m_problem->getElement(from.element).surface->getId(), m_options.geodesics.accuracy};
-        to.segment = -1;
     }
     path.length = calcLength(m_chain);
 }

@@ -97,6 +97,16 @@ void prepareContacts(const PathSolution& start, PathSolution& path) {
     }
 }
 
+/** Of an obstacle that stays touched, by its numbers of arcs: a solve that keeps contacts splits and joins them alone.
+ */
+void listArcEvents(int e, int atStart, int before, int after, std::vector<PathEvent>& events) {
+    using Kind = PathEvent::Kind;
+    if (atStart > 0 && before > 0 && before != atStart)
+        events.push_back({before > atStart ? Kind::Split : Kind::Joined, e});
+    if (before > 0 && after > 0 && after != before)
+        events.push_back({after > before ? Kind::ArcMade : Kind::ArcLost, e});
+}
+
 std::vector<PathEvent> listEvents(const PathProblem& problem, const PathSolution& start, const PathSolution& before,
                                   const PathSolution& after, int slippedAt) {
     using Kind = PathEvent::Kind;
@@ -107,6 +117,8 @@ std::vector<PathEvent> listEvents(const PathProblem& problem, const PathSolution
         if (after.contacts[e].hasLeftHole && !start.contacts[e].hasLeftHole) events.push_back({Kind::LeftHole, e});
         const bool wasOff = start.contacts[e].isSwitchedOff, isOff = after.contacts[e].isSwitchedOff;
         const bool wasTouched = before.contacts[e].isTouched || (isOff && start.contacts[e].isTouched);
+        listArcEvents(e, start.contacts[e].getNumArcs(), before.contacts[e].getNumArcs(),
+                      after.contacts[e].getNumArcs(), events);
         if (wasTouched == after.contacts[e].isTouched) continue;
         if (wasTouched)
             events.push_back({isOff ? Kind::SwitchedOff : Kind::Lifted, e});

@@ -16,7 +16,7 @@ namespace {
 using Condition = PathVerification::Condition;
 
 /** True if the arc presses on its surface all along: kappa_n <= 0. */
-bool pressesEverywhere(const Surface& surface, const ObstacleContact& contact) {
+bool pressesEverywhere(const Surface& surface, const ContactArc& contact) {
     const double tolerance = kVerificationRounding / surface.getSize();
     if (contact.geodesic.P.kappaN > tolerance || contact.geodesic.Q.kappaN > tolerance) return false;
     if (surface.isConvex() || !(contact.start.length > 0)) return true;
@@ -33,15 +33,15 @@ bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSeg
 }
 
 /** The ends tell it for most arcs; along the arc it is asked only of surfaces that have an edge. */
-bool isInDomain(const Surface& surface, const ObstacleContact& contact) {
+bool isInDomain(const Surface& surface, const ContactArc& contact) {
     const double margin =
         std::min(surface.calcDomainMargin(contact.start.point), surface.calcDomainMargin(contact.geodesic.endPoint));
     if (!(margin >= 0)) return false;
     return margin == kInfinity || !findDomainExit(surface, contact.start, kAlongArc);
 }
 
-Condition verifyContact(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact,
-                        const StraightSegment& in, const StraightSegment& out, double shortestArc) {
+Condition findBrokenCondition(const Surface& surface, const Pose& X_GS, const ContactArc& contact,
+                              const StraightSegment& in, const StraightSegment& out, double shortestArc) {
     const Geodesic& arc = contact.geodesic;
     if (!isInDomain(surface, contact)) return Condition::OutsideDomain;
     if (!(in.e.dot(X_GS.rotate(arc.P.t)) > 0) || !(out.e.dot(X_GS.rotate(arc.Q.t)) > 0))
@@ -54,7 +54,7 @@ Condition verifyContact(const Surface& surface, const Pose& X_GS, const Obstacle
 }
 
 /** Where on its arc a touched obstacle breaks a condition, in S. */
-Vec3 findPlaceOnArc(const Surface& surface, const ObstacleContact& contact, Condition condition, bool isAtEnd) {
+Vec3 findPlaceOnArc(const Surface& surface, const ContactArc& contact, Condition condition, bool isAtEnd) {
     const auto orStart = [&](const std::optional<GeodesicPlace>& place) {
         return place ? place->point.p : contact.geodesic.P.x;
     };
@@ -68,7 +68,7 @@ Vec3 findPlaceOnArc(const Surface& surface, const ObstacleContact& contact, Cond
 }
 
 /** Where a touched obstacle breaks a condition, in ground. */
-Vec3 findPlace(const Surface& surface, const Pose& X_GS, const ObstacleContact& contact, Condition condition,
+Vec3 findPlace(const Surface& surface, const Pose& X_GS, const ContactArc& contact, Condition condition,
                const StraightSegment& in, const StraightSegment& out) {
     if (condition == Condition::Penetration) {
         const StraightSegment& line = meetsOwnSurface(surface, X_GS, in) ? in : out;
@@ -76,6 +76,19 @@ Vec3 findPlace(const Surface& surface, const Pose& X_GS, const ObstacleContact& 
     }
     const bool isAtEnd = condition == Condition::ReversedTangent && in.e.dot(X_GS.rotate(contact.geodesic.P.t)) > 0;
     return X_GS * findPlaceOnArc(surface, contact, condition, isAtEnd);
+}
+
+/** @param i    of the arcs of element e
+@param segmentIn   that comes to it */
+PathVerification verifyArc(const Surface& surface, const Pose& X_GS, const PathSolution& path, int e, int i,
+                           int segmentIn, double shortestArc) {
+    const ContactArc& arc = path.contacts[e].getArc(i);
+    const StraightSegment &in = path.segments[segmentIn], &out = path.segments[segmentIn + 1];
+    const Condition condition = findBrokenCondition(surface, X_GS, arc, in, out, shortestArc);
+    if (condition == Condition::None) return {};
+    const int segment = meetsOwnSurface(surface, X_GS, in) ? segmentIn : segmentIn + 1;
+    return {condition, e, findPlace(surface, X_GS, arc, condition, in, out), i,
+            condition == Condition::Penetration ? segment : -1};
 }
 
 }  // namespace
@@ -89,17 +102,17 @@ PathVerification verifyPath(const PathProblem& problem, const PathPose& pose, co
         if (element.isPoint() || !pose.hasElement(e)) continue;
         const ObstacleContact& contact = path.contacts[e];
         while (segmentIn < lastSegment && path.segments[segmentIn].toElement < e) ++segmentIn;
-        if (contact.isTouched) {
-            const StraightSegment &in = path.segments[segmentIn], &out = path.segments[segmentIn + 1];
-            const Condition condition = verifyContact(*element.surface, pose.X_GE[e], contact, in, out, shortestArc);
-            if (condition != Condition::None)
-                return {condition, e, findPlace(*element.surface, pose.X_GE[e], contact, condition, in, out)};
-        } else if (!contact.isSwitchedOff &&
-                   !(contact.clearance.distance * contact.clearance.scale >= kContactTolerance)) {
+        for (int i = 0; i < contact.getNumArcs(); ++i) {
+            const PathVerification broken =
+                verifyArc(*element.surface, pose.X_GE[e], path, e, i, segmentIn + i, shortestArc);
+            if (!broken.isMinimum()) return broken;
+        }
+        if (!contact.isTouched && !contact.isSwitchedOff &&
+            !(contact.clearance.distance * contact.clearance.scale >= kContactTolerance)) {
             if (lastSegment < 0) return {Condition::Penetration, e};  // a pose that is not finite leaves no path
             const StraightSegment& line = path.segments[segmentIn];
             const double s = std::clamp(contact.clearance.lineCoordinate, 0.0, line.length);
-            return {Condition::Penetration, e, line.A + s * line.e};
+            return {Condition::Penetration, e, line.A + s * line.e, 0, segmentIn};
         }
     }
     const PathStability stability = calcPathStability(problem, pose, path);

@@ -34,14 +34,14 @@ struct PosedProblem {
     }
 
     /** Calls visit(e, in, out) for every obstacle that takes part, with the indices in path.segments of the straight
-    segments before and after it: the same one while it is lifted. */
+    segments before and after it: the same one while it is lifted; segments between its arcs lie between them. */
     template <class Visitor>
     void forEachObstacleOnSegments(const PathSolution& path, Visitor visit) const {
         int in = 0;
         const int last = static_cast<int>(path.segments.size()) - 1;
         forEachObstacle([&](int e) {
             while (in < last && path.segments[in].toElement < e) ++in;
-            visit(e, in, path.contacts[e].isTouched ? in + 1 : in);
+            visit(e, in, in + path.contacts[e].getNumArcs());
         });
     }
 

@@ -10,12 +10,14 @@ namespace {
 
 bool arrivesReversed(const PosedProblem& scene, const PathSolution& path, const StraightSegment& line) {
     const int e = line.toElement;
-    return !scene.isPoint(e) && line.e.dot(scene.getPose(e).R * path.contacts[e].geodesic.P.t) < 0;
+    if (e == line.fromElement) return false;
+    return !scene.isPoint(e) && line.e.dot(scene.getPose(e).R * path.contacts[e].getArc(line.toArc).geodesic.P.t) < 0;
 }
 
 bool leavesReversed(const PosedProblem& scene, const PathSolution& path, const StraightSegment& line) {
     const int e = line.fromElement;
-    return !scene.isPoint(e) && line.e.dot(scene.getPose(e).R * path.contacts[e].geodesic.Q.t) < 0;
+    if (e == line.toElement) return false;
+    return !scene.isPoint(e) && line.e.dot(scene.getPose(e).R * path.contacts[e].getArc(line.fromArc).geodesic.Q.t) < 0;
 }
 
 }  // namespace
@@ -27,25 +29,27 @@ bool hasReversedTangent(const PosedProblem& scene, const PathSolution& path) {
 }
 
 void reverseTangents(const PosedProblem& scene, const std::vector<double>* startLengths, PathSolution& path) {
-    const auto calcShift = [&](int e, const DarbouxFrame& end, double lineLength) {
-        const double curvature = std::abs(end.kappaN), length = path.contacts[e].start.length;
+    const auto calcShift = [&](int arcNumber, double length, const DarbouxFrame& end, double lineLength) {
+        const double curvature = std::abs(end.kappaN);
         const double back = curvature > 0 ? 2 * std::atan(curvature * lineLength) / curvature : 2 * lineLength;
-        if (!startLengths || !(curvature > 0)) return -back;
-        const double on = 2 * kPi / curvature - back, start = (*startLengths)[e];
+        const bool knowsStart = startLengths && arcNumber < static_cast<int>(startLengths->size());
+        if (!knowsStart || !(curvature > 0)) return -back;
+        const double on = 2 * kPi / curvature - back, start = (*startLengths)[arcNumber];
         return std::abs(length - back - start) < std::abs(length + on - start) ? -back : on;
     };
+    int next = 0;  // number of the arc after a line
     for (const StraightSegment& line : path.segments) {
         if (arrivesReversed(scene, path, line)) {
-            ObstacleContact& contact = path.contacts[line.toElement];
-            const DarbouxFrame& P = contact.geodesic.P;
-            const double shift = calcShift(line.toElement, P, line.length);
+            ContactArc& arc = path.contacts[line.toElement].updArc(line.toArc);
+            const double shift = calcShift(next, arc.start.length, arc.geodesic.P, line.length);
             const Surface& surface = scene.getSurface(line.toElement);
-            contact.start = calcCorrectedStart(surface, contact.start, P, Vec4(-shift, 0, 0, shift));
+            arc.start = calcCorrectedStart(surface, arc.start, arc.geodesic.P, Vec4(-shift, 0, 0, shift));
         }
         if (leavesReversed(scene, path, line)) {
-            ObstacleContact& contact = path.contacts[line.fromElement];
-            contact.start.length += calcShift(line.fromElement, contact.geodesic.Q, line.length);
+            ContactArc& arc = path.contacts[line.fromElement].updArc(line.fromArc);
+            arc.start.length += calcShift(next - 1, arc.start.length, arc.geodesic.Q, line.length);
         }
+        next += !scene.isPoint(line.toElement);
     }
 }
 

@@ -233,6 +233,18 @@ Vec3 findNextKnown(const PosedProblem& scene, int element) {
     return scene.getPose(scene.size() - 1).p;
 }
 
+/** @param points_S   on all arcs in turn; of arcs without length their start */
+void layAlongArcs(const Surface& surface, const PassedObstacle& obstacle, std::vector<Vec3>& points_S) {
+    std::vector<Vec3> along;
+    const auto layAlong = [&](const GeodesicStart& arc) {
+        along = {arc.point.p};
+        if (arc.length > 0) sampleGeodesic(surface, arc, kRoughlyAlong, kArcWaypoints, along);
+        points_S.insert(points_S.end(), along.begin(), along.end());
+    };
+    layAlong(obstacle.arc);
+    for (const GeodesicStart& arc : obstacle.furtherArcs) layAlong(arc);
+}
+
 /** Lifted obstacles that have come between the waypoints beside them are passed where they were: on the side that is
 kept, however far that is. */
 void guideOverSunken(const PosedProblem& scene, const std::vector<PassedObstacle>& previous, Waypoints& waypoints) {
@@ -277,6 +289,10 @@ void calcAskedRoute(const PosedProblem& scene, Route& route) {
     }
 }
 
+int calcAskedPassages(const PathElement& element, const Vec3& A_S, const Vec3& B_S) {
+    return countAskedPassages(element, {A_S, B_S});
+}
+
 double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S) {
     const Chord chord{A_S, B_S};
     const bool isDirect =
@@ -288,9 +304,13 @@ void rememberPath(const PathSolution& path, std::vector<PassedObstacle>& previou
     previous.resize(path.contacts.size());
     for (std::size_t e = 0; e < previous.size(); ++e) {
         const ObstacleContact& contact = path.contacts[e];
-        previous[e] = {contact.isTouched,      contact.isSwitchedOff,     contact.start,
-                       contact.passage.count,  contact.passage.through_S, contact.clearance.keptC,
-                       contact.clearance.keptN};
+        PassedObstacle& passed = previous[e];
+        passed.isTouched = contact.isTouched, passed.isSwitchedOff = contact.isSwitchedOff;
+        passed.arc = contact.start;
+        passed.furtherArcs.clear();
+        for (const ContactArc& arc : contact.furtherArcs) passed.furtherArcs.push_back(arc.start);
+        passed.passages = contact.passage.count, passed.through_S = contact.passage.through_S;
+        passed.keptC = contact.clearance.keptC, passed.keptN = contact.clearance.keptN;
     }
 }
 
@@ -303,10 +323,8 @@ Route calcPreviousRoute(const PosedProblem& scene, const std::vector<PassedObsta
         std::vector<Vec3>& points = route.waypoints[e];
         if (scene.isPoint(e))
             points = {Vec3::Zero()};
-        else if (obstacle.isTouched && obstacle.arc.length > 0)
-            sampleGeodesic(scene.getSurface(e), obstacle.arc, kRoughlyAlong, kArcWaypoints, points);
         else if (obstacle.isTouched)
-            points = {obstacle.arc.point.p};
+            layAlongArcs(scene.getSurface(e), obstacle, points);
         else if (obstacle.passages != 0)
             points = {obstacle.through_S};
         for (Vec3& p : points) p = scene.getPose(e) * p;

@@ -25,13 +25,18 @@ void calcAskedRoute(const PosedProblem& scene, Route& route);
 with no more than a side asked for [rad]: what calcAskedRoute() lays there, without laying it. */
 double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S);
 
+/** How often the asked route goes through the hole of an obstacle between two points beside it, in S, along +z less
+against it; PassageRule::kAny where nothing is asked. */
+int calcAskedPassages(const PathElement& element, const Vec3& A_S, const Vec3& B_S);
+
 /** What is remembered of an obstacle of a path, so that a string can be laid along that again. */
 struct PassedObstacle {
     bool isTouched = false, isSwitchedOff = false;
-    GeodesicStart arc;              ///< in S
-    int passages = 0;               ///< through its hole
-    Vec3 through_S = Vec3::Zero();  ///< where it last went through
-    SurfacePoint keptC;             ///< where a lifted one was watched last, with its normal; in S
+    GeodesicStart arc;                       ///< in S; the first
+    std::vector<GeodesicStart> furtherArcs;  ///< in S
+    int passages = 0;                        ///< through its hole
+    Vec3 through_S = Vec3::Zero();           ///< where it last went through
+    SurfacePoint keptC;                      ///< where a lifted one was watched last, with its normal; in S
     Vec3 keptN;
 };
 

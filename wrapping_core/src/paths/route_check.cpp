@@ -6,6 +6,8 @@
 #include <variant>
 
 #include "paths/arc_course.h"
+#include "paths/route.h"
+#include "surfaces/nearest_point.h"
 #include "tautline/paths/tolerances.h"
 
 namespace tautline {
@@ -19,28 +21,6 @@ bool isNearPoint(const PathElement& element, const ObstacleContact& contact) {
     return !(element.side_S.dot(N) < -kOnTheEdge);
 }
 
-/** The point of a convex surface nearest to D, which is outside, from a point near it: Newton's method on the squared
-distance, while that falls. */
-Vec3 findNearestPoint(const Surface& surface, const Vec3& D, SurfacePoint C) {
-    constexpr int kMaxSteps = 20;
-    for (int i = 0; i < kMaxSteps; ++i) {
-        const Vec3 r = D - C.p;
-        const DarbouxFrame frame = surface.calcFrame(C, r);
-        const Vec2 r_tB(r.dot(frame.t), r.dot(frame.B));
-        if (!(r_tB.norm() > kSamePlace * surface.getSize())) break;
-        // Of half the squared distance over the tangent plane (t, B): slope -r_tB, curvature 1 - h II.
-        const double h = r.dot(frame.N);
-        Eigen::Matrix2d M;
-        M << 1 - h * frame.kappaN, h * frame.tauG, h * frame.tauG, 1 - h * frame.kappaB;
-        if (!(M(0, 0) > 0 && M.determinant() > 0)) break;
-        const Vec2 step = M.inverse() * r_tB;
-        const SurfacePoint next = surface.calcDisplacedPoint(C, step[0] * frame.t + step[1] * frame.B);
-        if (!((D - next.p).norm() < r.norm())) break;
-        C = next;
-    }
-    return C.p;
-}
-
 /** Where a lifted string comes nearest to a surface: past an end of the segment the place that is watched is the foot
 of the steepest descent from that end, which from afar leads elsewhere. */
 Vec3 findPlaceBeside(const Surface& surface, const Pose& X_GS, const StraightSegment& line,
@@ -49,7 +29,7 @@ Vec3 findPlaceBeside(const Surface& surface, const Pose& X_GS, const StraightSeg
     const Vec3 A_S = X_GS.shiftBack(line.A), B_S = X_GS.shiftBack(line.B);
     const double length = (B_S - A_S).norm();
     if (!(length > 0)) return clearance.C.p;
-    return findNearestPoint(surface, A_S + clearance.lineCoordinate / length * (B_S - A_S), clearance.C);
+    return findNearestPoint(surface, A_S + clearance.lineCoordinate / length * (B_S - A_S), clearance.C).p;
 }
 
 /** PassOnSide says where the middle is. @param line   that comes to the obstacle */
@@ -106,6 +86,14 @@ bool liesElsewhere(const PathElement& element, const ObstacleContact& contact, c
     return begin.dot(calcMiddleNormal(*element.surface, contact).normalized()) < kCosineOfNear * begin.norm();
 }
 
+/** Whether a string through a ring goes through it otherwise than a search would begin. */
+bool hasComeThroughOtherwise(const PathElement& element, const ObstacleContact& contact, const Vec3& A_S,
+                             const Vec3& B_S) {
+    if (!element.hasHole || contact.isSwitchedOff || !contact.passage.isKnown()) return false;
+    const int asked = calcAskedPassages(element, A_S, B_S);
+    return asked != PassageRule::kAny && contact.passage.count != asked;
+}
+
 /** Windings and passages are judged by themselves. */
 bool isJudged(const PosedProblem& scene, const PathSolution& path, int e) {
     if (scene.isPoint(e)) return false;
@@ -123,13 +111,16 @@ RouteDeviation findContinuedDeviation(const PosedProblem& scene, const PathSolut
     std::size_t next = 0;
     for (std::size_t i = 1; i < lines.size(); ++i) {
         const int e = lines[i].fromElement;
+        if (lines[i].toElement == e) continue;  // between two arcs
         while (next < i || !isKnown(lines[next].toElement)) ++next;
-        if (isJudged(scene, path, e)) {
+        if (!scene.isPoint(e)) {
             const Pose& X_GS = scene.getPose(e);
             const Vec3 A_S = X_GS.shiftBack(before_G), B_S = X_GS.shiftBack(lines[next].B);
             const PathElement& element = scene.problem.getElement(e);
             const auto isElsewhere = element.isEndless ? hasComeRoundAxis : liesElsewhere;
-            if (isElsewhere(element, path.contacts[e], A_S, B_S)) return {Kind::Continued, e};
+            if (hasComeThroughOtherwise(element, path.contacts[e], A_S, B_S) ||
+                (isJudged(scene, path, e) && isElsewhere(element, path.contacts[e], A_S, B_S)))
+                return {Kind::Continued, e};
         }
         if (isKnown(e)) before_G = lines[i].A;
     }

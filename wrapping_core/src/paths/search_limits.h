@@ -10,6 +10,9 @@ inline int calcMaxContactChanges(int numElements) {
     return 3 * numElements + 10;
 }
 
+/** Splits and joins of arcs while one contact set is solved: a sheet of many hollows opens one after the other. */
+inline constexpr int kMaxArcChanges = 24;
+
 /** Reversed tangents and saddles that one local solve mends; a start that needs more is in another basin. */
 inline constexpr int kMaxRepairs = 4;
 

@@ -23,10 +23,10 @@ struct FieldAtContact {
 /** Elimination from contact to contact. */
 class PivotRecursion {
 public:
-    /** Enters the arc on element e of the segment `in`. */
+    /** Enters the arc to which the segment `in` leads. */
     void enterArc(const PosedProblem& scene, const PathSolution& path, const StraightSegment& in) {
         const int e = in.toElement;
-        const Geodesic& arc = path.contacts[e].geodesic;
+        const Geodesic& arc = path.getArcAfter(in).geodesic;
         // From a fixed point y : y' = l : 1; from an arc, the pivot.
         y = in.length;
         double slope = 1;
@@ -59,10 +59,10 @@ private:
 on: it has the sign of the pivot. @param failsAtArc   at P already, so that Q stays where it is */
 void traceBack(const PathSolution& path, const std::vector<FieldAtContact>& fields, std::size_t segment,
                bool failsAtArc, SidewaysField& direction) {
-    direction.assign(path.contacts.size(), Vec2::Zero());
+    direction.assign(path.segments.size(), Vec2::Zero());
     double bQ = failsAtArc ? 0 : 1, bP = failsAtArc ? 1 : fields[segment].yP / fields[segment].yQ;
     for (std::size_t j = segment;; --j) {
-        direction[path.segments[j].toElement] = Vec2(bP, bQ);
+        direction[j] = Vec2(bP, bQ);
         if (j == 0 || !(std::abs(fields[j].toPrevious) > 0)) break;
         bQ = fields[j].toPrevious * bP;
         bP = bQ * fields[j - 1].yP / fields[j - 1].yQ;
@@ -91,13 +91,14 @@ PathStability calcSecondVariation(const PosedProblem& scene, const PathSolution&
         const StraightSegment &in = path.segments[j], &out = path.segments[j + 1];
         const int e = in.toElement;
         if (scene.isPoint(e)) continue;
-        const Geodesic& arc = path.contacts[e].geodesic;
+        const ContactArc& contact = path.getArcAfter(in);
+        const Geodesic& arc = contact.geodesic;
         pivots.enterArc(scene, path, in);
         if (direction) fields[j] = {pivots.y, pivots.yQ, pivots.toPrevious};
         // A path over a sphere between opposite points can turn freely: neutral, and a minimum like its neighbours.
         const double neutral = scene.isPoint(out.toElement) ? kNeutralVariation : 0;
         const double atLine = calcRelative(pivots.slopeQ * out.length, pivots.yQ) + neutral;
-        const bool isBeyondConjugatePoint = arc.hasConjugatePoint && path.contacts[e].start.length > 0;
+        const bool isBeyondConjugatePoint = arc.hasConjugatePoint && contact.start.length > 0;
         const double margin = isBeyondConjugatePoint ? -1
                               : pivots.atArc > 0     ? std::min(pivots.atArc, atLine)
                                                      : pivots.atArc;
@@ -120,12 +121,13 @@ bool moveAlongNegativeCurvature(const PosedProblem& scene, double amount, PathSo
     SidewaysField direction;
     const PathStability stability = calcSecondVariation(scene, path, &direction);
     if (stability.isStable()) return false;
-    for (std::size_t e = 0; e < direction.size(); ++e) {
-        if (direction[e].isZero()) continue;
-        ObstacleContact& contact = path.contacts[e];
-        const Surface& surface = scene.getSurface(static_cast<int>(e));
+    for (std::size_t j = 0; j < direction.size(); ++j) {
+        if (direction[j].isZero()) continue;
+        const StraightSegment& in = path.segments[j];
+        ContactArc& contact = path.contacts[in.toElement].updArc(in.toArc);
+        const Surface& surface = scene.getSurface(in.toElement);
         const Geodesic& arc = contact.geodesic;
-        const Vec2 b = amount * surface.getSize() * direction[e];
+        const Vec2 b = amount * surface.getSize() * direction[j];
         const double turn = (b[1] - arc.a * b[0]) / arc.r;
         const double theta = std::isfinite(turn) ? std::clamp(turn, -kMaxTurn, kMaxTurn) : 0;
         contact.start = calcCorrectedStart(surface, contact.start, arc.P, Vec4(0, b[0], theta, 0));

@@ -18,6 +18,7 @@ using Condition = PathVerification::Condition;
 void clearContacts(PathSolution& path) {
     for (ObstacleContact& contact : path.contacts) {
         contact.isTouched = false;
+        contact.furtherArcs.clear();
         contact.yields = false;
         contact.clearance = LineClearance();
     }
@@ -48,7 +49,7 @@ bool hasSidesAlone(const PosedProblem& scene) {
 /** Whether a string rests where it shows a fault, so that no finer one would show another. */
 bool isAtRest(const StringFault& fault) {
     using Kind = StringFault::Kind;
-    return fault.kind == Kind::Groove || fault.kind == Kind::TwoContacts || fault.kind == Kind::OutOfOrder;
+    return fault.kind == Kind::Groove || fault.kind == Kind::OutOfOrder;
 }
 
 /** Whether two obstacles meet near a place: steps to and fro between their surfaces come to where they do. */
@@ -312,7 +313,7 @@ PathSearch::Rank PathSearch::freeBand(Rank rank, const Route& route, bool keepsS
     double move = kFirstBandMove;
     for (int i = 0; i < kMaxBandMoves && m_broken.condition == Condition::ConjugatePoint; ++i, move *= 2) {
         const int e = m_broken.element;
-        const Vec3 sideways_G = m_scene->getPose(e).rotate(path.contacts[e].geodesic.P.B);
+        const Vec3 sideways_G = m_scene->getPose(e).rotate(path.contacts[e].getArc(m_broken.arc).geodesic.P.B);
         m_band.move(e, move * m_scene->getSurface(e).getSize() * sideways_G);
         rank = tightenBand(kPatientBand, route, keepsSides, path);
     }
@@ -348,6 +349,7 @@ void PathSearch::yieldInGrooves(PathSolution& path) {
             const int second = yieldsSecond ? groove.other : groove.element;
             if (path.contacts[first].yields) continue;
             path.contacts[second].isTouched = false;
+            path.contacts[second].furtherArcs.clear();
             path.contacts[second].yields = true;
         }
         const Rank rank = judge(m_local.solve(*m_scene, path, {false}), PassageRule(), true, path);

@@ -23,8 +23,7 @@ A path that could not be continued to a minimum, nor found anew, is sought again
 
 The band is a coarse discretization of the string with one-sided contact, so that it can bend where arcs cannot: it
 finds the contacts and the basin of the minimum, or shows why there is none (StringFault). Where it comes to rest on the
-route asked for, but is not one smooth path with one arc on each surface, that is the answer: another route would be
-another string.
+route asked for, but is not a smooth path, that is the answer: another route would be another string.
 
 Of several paths met the best is returned (Rank). Holds the workspace; answers do not depend on it. */
 class PathSearch {

@@ -31,7 +31,7 @@ private:
 @param surface, contact   whose arc it is
 @param X_HS               its frame in that of the surface with the hole
 @param holeSize           of that surface [m] */
-void followArc(const Surface& surface, const ObstacleContact& contact, const Pose& X_HS, double holeSize,
+void followArc(const Surface& surface, const ContactArc& contact, const Pose& X_HS, double holeSize,
                PassageCounter& counter) {
     const double size = std::min(surface.getSize(), holeSize);
     const int pieces =
@@ -90,7 +90,8 @@ HolePassage calcHolePassage(const PosedProblem& scene, const PathSolution& path,
         }
         const Pose& X_GS = scene.getPose(between);
         const Pose X_HS(X_GH.R.transpose() * X_GS.R, X_GH.shiftBack(X_GS.p));
-        followArc(scene.getSurface(between), path.contacts[between], X_HS, scene.getSurface(e).getSize(), counter);
+        followArc(scene.getSurface(between), path.getArcAfter(path.segments[k]), X_HS, scene.getSurface(e).getSize(),
+                  counter);
     }
     counter.goTo(passage.B_S);
     return passage;

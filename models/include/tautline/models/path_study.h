@@ -24,8 +24,9 @@ struct ModelPose {
 /** What a path does at one of its obstacles. */
 struct ObstacleAnswer {
     bool isTouched = false;
+    int numArcs = 0;             ///< more than 1 where the path bridges hollows of the surface
     bool isSwitchedOff = false;  ///< a point beside it lies inside it, as OpenSim switches it off
-    double arcLength = 0.0;      ///< [m]
+    double arcLength = 0.0;      ///< of all arcs together [m]
 };
 
 /** A path in one pose. Always finite, whatever the status, but for effective arms. */

@@ -32,8 +32,9 @@ and the cable snaps to the shortest path next to it, with other contacts or the 
 lost on the way follow. The length jumps down, from lengthBefore to lengthAfter, and the rate jumps: a force element
 that stores energy loses what it stored in the difference, and no law says where it goes.
 
-Split: it is no longer one arc (its pressure turns inside, or a segment beside it meets the same surface again), stays
-as it is and makes the path NotMinimum.
+Split: the pressure has turned inside an arc, and the cable bridges the hollow there between two arcs. Joined: a hollow
+has closed, and two arcs have become one. Neither shows in the length, its rate or its acceleration. ArcMade: the cable
+has come down on an obstacle that it touches in one more place. ArcLost: it has left one of several places.
 
 LeftHole: the cable has left a ring (an obstacle with a hole) through which it was threaded: the step was too long for
 the ring to hold it.
@@ -42,7 +43,7 @@ SwitchedOff: an obstacle that the cable touched no longer takes part, since a po
 or its condition has become false. SwitchedOn: one that had been switched off takes part and is touched again. The
 length jumps at both. */
 struct ContactEvent {
-    enum class Kind { Made, Lost, Split, LeftHole, Slipped, SwitchedOff, SwitchedOn };
+    enum class Kind { Made, Lost, Split, Joined, ArcMade, ArcLost, LeftHole, Slipped, SwitchedOff, SwitchedOn };
     SimTK::Real time;  ///< [s]
     CableIndex cable;
     CableElementIndex obstacle;
@@ -258,32 +259,37 @@ public:
     /** Where an element's origin is on its body, moving or not [m]. */
     SimTK::Vec3 calcStation(const SimTK::State& state, CableElementIndex element) const;
     bool isTouched(const SimTK::State& state, CableElementIndex obstacle) const;
-    /** Length of the arc on an obstacle [m]; NaN while lifted. */
+    /** In how many arcs the path lies on an obstacle: 0 while lifted; more than 1 where it bridges hollows between. */
+    int getNumArcs(const SimTK::State& state, CableElementIndex obstacle) const;
+    /** Length of the arcs on an obstacle together [m]; NaN while lifted. */
     SimTK::Real getArcLength(const SimTK::State& state, CableElementIndex obstacle) const;
-    /** Where the path meets (P) and leaves (Q) an obstacle, in ground. @return false while lifted */
-    bool getContactPoints(const SimTK::State& state, CableElementIndex obstacle, SimTK::Vec3& P_G,
-                          SimTK::Vec3& Q_G) const;
-    /** The frames there: x along the path, y the outward normal, z = x cross y. @return false while lifted */
+    /** Where the path meets (P) and leaves (Q) an obstacle, in ground. @param arc   which of its arcs, from 0
+    @return false where it has no such arc, as while lifted */
+    bool getContactPoints(const SimTK::State& state, CableElementIndex obstacle, SimTK::Vec3& P_G, SimTK::Vec3& Q_G,
+                          int arc = 0) const;
+    /** The frames there: x along the path, y the outward normal, z = x cross y. */
     bool getContactFrames(const SimTK::State& state, CableElementIndex obstacle, SimTK::Transform& X_GP,
-                          SimTK::Transform& X_GQ) const;
-    /** Direction of the path where it meets (P) and leaves (Q) an obstacle, in ground. @return false while lifted */
+                          SimTK::Transform& X_GQ, int arc = 0) const;
+    /** Direction of the path where it meets (P) and leaves (Q) an obstacle, in ground. */
     bool getContactTangents(const SimTK::State& state, CableElementIndex obstacle, SimTK::UnitVec3& atP_G,
-                            SimTK::UnitVec3& atQ_G) const;
+                            SimTK::UnitVec3& atQ_G, int arc = 0) const;
     /** Direction in which the path leaves the origin, and in which it arrives at the insertion, in ground. */
     SimTK::UnitVec3 calcOriginTangent(const SimTK::State& state) const;
     SimTK::UnitVec3 calcInsertionTangent(const SimTK::State& state) const;
     /** Signed distance of the straight segment that passes a lifted obstacle [m]; NaN while touched. */
     SimTK::Real getClearance(const SimTK::State& state, CableElementIndex obstacle) const;
     /** What the event finder watches, dimensionless: contact changes where it falls below zero. Lifted:
-    clearance above the contact tolerance, touched: arc length over size. Positive and never 0 or NaN
+    clearance above the contact tolerance, touched: least length of an arc over size, or height at which the path comes
+    near the surface again. Positive and never 0 or NaN
     unless the contact is about to change; 1 while contacts are free. */
     SimTK::Real getWitness(const SimTK::State& state, CableElementIndex obstacle) const;
     /** Points along the path in ground, arcs turned by at most maxAngle [rad] between points. */
     std::vector<SimTK::Vec3> calcDrawingPoints(const SimTK::State& state, SimTK::Real maxAngle = 0.1) const;
     /** Points at equal distances along the whole path, ends included, in ground. @param count   at least 2 */
     std::vector<SimTK::Vec3> calcResampledPoints(const SimTK::State& state, int count) const;
-    /** The same along the arc on an obstacle. @throws InvalidInput while it is lifted */
-    std::vector<SimTK::Vec3> calcResampledArc(const SimTK::State& state, CableElementIndex obstacle, int count) const;
+    /** The same along an arc on an obstacle. @throws InvalidInput if it has no such arc */
+    std::vector<SimTK::Vec3> calcResampledArc(const SimTK::State& state, CableElementIndex obstacle, int count,
+                                              int arc = 0) const;
     ///@}
 
     /** @name Forces: unit tension unless one is given [Position]

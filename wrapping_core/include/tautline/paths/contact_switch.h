@@ -6,9 +6,14 @@
 
 namespace tautline {
 
-/** Touches a lifted obstacle, with an arc of length zero where its segment just touches, or lifts a touched one.
+/** Does what the witness of contact (contact_witness.h) asks for: touches a lifted obstacle, with an arc of length zero
+where its segment just touches; of a touched one lifts the shortest arc, or makes one more where a segment has come down
+on it again.
 @param path   solved at `pose`; its contact is changed, the path is to be solved anew */
 void switchContact(const PathProblem& problem, const PathPose& pose, int element, PathSolution& path);
+
+/** Which of the arcs of a touched obstacle is the shortest. */
+int findShortestArc(const ObstacleContact& contact);
 
 /** Takes a touched obstacle out of contact; its clearance is watched on the side where the arc began. */
 void liftContact(ObstacleContact& contact);

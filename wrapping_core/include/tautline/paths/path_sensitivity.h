@@ -10,10 +10,12 @@ O(n) solve per motion. */
 namespace tautline {
 
 /** Rates of a path under one motion of its elements (velocities, or any other variation of the poses); one entry per
-element in each list, zero where it is not touched. */
+element in each list, zero where it is not touched. Of an obstacle with several arcs P is where the first one begins and
+Q where the last one ends. */
 struct PathVariation {
     double lengthRate = 0;                ///< dL/dt [m/s]
-    std::vector<Vec4> xiRate;             ///< of the natural corrections (s, beta, theta, l) [m/s, m/s, rad/s, m/s]
+    std::vector<Vec4> xiRate;             ///< of the first arc's natural corrections (s, beta, theta, l), in m/s but
+                                          ///< the third, in rad/s
     std::vector<Vec3> PRate, QRate;       ///< velocities of the contact points in ground [m/s]
     std::vector<SpatialForce> forceRate;  ///< of the unit force [1/s] and its moment about the moving origin [m/s]
 };

@@ -38,36 +38,56 @@ struct ArcShot {
     double accuracy = kNaN;     ///< GeodesicOptions::accuracy
 };
 
-/** What one obstacle does in a solved path. */
-struct ObstacleContact {
+/** Where a path lies on a surface, from one straight segment to the next. */
+struct ContactArc {
+    GeodesicStart start;  ///< in S
+    Geodesic geodesic;    ///< in S; of a solved path
+    ArcShot shot;         ///< that `geodesic` came from
+};
+
+/** What one obstacle does in a solved path. While it is touched the path lies on it in one arc or, where it bridges a
+hollow between, in several; the members `start`, `geodesic` and `shot` are those of the first arc, or of the last one it
+had, while it is lifted. */
+struct ObstacleContact : ContactArc {
     bool isTouched = false;
     bool isSwitchedOff = false;  ///< an end of its strand is inside it, or the pose passes it over
     bool yields = false;         ///< it overlaps another obstacle where the string lies: the path passes through it
-    GeodesicStart start;         ///< in S; of the arc, or of the last arc while lifted
-    Geodesic geodesic;           ///< in S; only while touched
-    ArcShot shot;                ///< that `geodesic` came from
     LineClearance clearance;     ///< in S; of the straight line that passes the surface while lifted
     int segment = -1;            ///< while lifted: index of that straight segment
     HolePassage passage;         ///< of surfaces that have a hole: the one that a continued path has to keep
     bool hasLeftHole = false;    ///< the path no longer goes through the hole in that way, and did not since
+    std::vector<ContactArc> furtherArcs;  ///< after the first, in path order; empty while lifted
+
+    /** 0 while lifted. */
+    int getNumArcs() const { return isTouched ? 1 + static_cast<int>(furtherArcs.size()) : 0; }
+    const ContactArc& getArc(int i) const { return i == 0 ? *this : furtherArcs[i - 1]; }
+    ContactArc& updArc(int i) { return i == 0 ? *this : furtherArcs[i - 1]; }
+    /** Of all arcs together [m]. */
+    double calcArcLength() const {
+        double length = 0;
+        for (int i = 0; i < getNumArcs(); ++i) length += getArc(i).geodesic.length;
+        return length;
+    }
+    const ContactArc& getLastArc() const { return furtherArcs.empty() ? *this : furtherArcs.back(); }
 };
 
-/** A straight segment between fixed points and arcs; A and B in ground. */
+/** A straight segment between fixed points and arcs; A and B in ground. Between two arcs of one obstacle it has that
+obstacle at both ends. */
 struct StraightSegment {
     int fromElement = -1, toElement = -1;
+    int fromArc = 0, toArc = 0;  ///< which arc of an obstacle it leaves and comes to
     Vec3 A = Vec3::Constant(kNaN), B = Vec3::Constant(kNaN);
     Vec3 e = Vec3::Constant(kNaN);  ///< unit vector from A to B
     double length = kNaN;           ///< [m]
 };
 
-/** Why a string that has fallen taut is not one smooth path with one arc on each surface. */
+/** Why a string that has fallen taut is not one smooth path. */
 struct StringFault {
     enum class Kind {
         None,
-        Groove,       ///< it lies in the groove where two surfaces meet: a kink
-        TwoContacts,  ///< it touches one surface, leaves it, and touches it again
-        Sliding,      ///< it has not come to rest: it slides so slowly that it is next to a neutral course
-        OutOfOrder,   ///< it meets two obstacles against the order of the path: it would have to cross itself
+        Groove,      ///< it lies in the groove where two surfaces meet: a kink
+        Sliding,     ///< it has not come to rest: it slides so slowly that it is next to a neutral course
+        OutOfOrder,  ///< it meets two obstacles against the order of the path: it would have to cross itself
     };
     Kind kind = Kind::None;
     int element = -1;  ///< the obstacle concerned; -1 where a string slides clear of all
@@ -108,6 +128,8 @@ struct PathSolution {
     std::vector<double> errorHistory;  ///< max |eps| before each Newton iteration of the last run
 
     bool isEmpty() const { return contacts.empty(); }
+    /** The arc to which a segment leads, on an obstacle. */
+    const ContactArc& getArcAfter(const StraightSegment& in) const { return contacts[in.toElement].getArc(in.toArc); }
     bool followsHints() const {
         return deviation.kind == RouteDeviation::Kind::None || deviation.kind == RouteDeviation::Kind::Continued;
     }

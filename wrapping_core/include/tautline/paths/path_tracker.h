@@ -30,6 +30,10 @@ struct PathEvent {
     enum class Kind {
         Touched,      ///< the path has come to touch the obstacle
         Lifted,       ///< the path has left it
+        Split,        ///< pressure has turned inside an arc: two arcs now lie beside a hollow that the path bridges
+        Joined,       ///< a hollow has closed: one arc where there were two
+        ArcMade,      ///< the path has come down on an obstacle that it touches in one more place
+        ArcLost,      ///< the path has left an obstacle in one of several places
         Slipped,      ///< the string had no stable path left near this obstacle, and has jumped to another one
         SwitchedOff,  ///< a touched obstacle no longer takes part: a point beside it is inside it, or it is passed over
         SwitchedOn,   ///< one that had been switched off is touched again
@@ -69,8 +73,7 @@ public:
 
     /** Continues `start` with its contacts decided anew, so that the path keeps its course: for studies without
     events. Parameters as for track(). */
-    void trackFreely(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion,
-                     TrackedPath& path);
+    void trackFreely(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion, TrackedPath& path);
 
     /** Solves with the contacts of `start`. Where one solve does not lead to the path, or to another one that is a
     saddle, and where elements turn against each other by more than a solve follows, the path is carried along the way

@@ -22,6 +22,8 @@ struct PathVerification {
     Condition condition = Condition::None;
     int element = -1;                     ///< the obstacle concerned
     Vec3 place_G = Vec3::Constant(kNaN);  ///< where on the path, in ground [m]
+    int arc = 0;                          ///< which of its arcs
+    int segment = -1;                     ///< of a penetration: index of the straight segment
 
     bool isMinimum() const { return condition == Condition::None; }
 };
