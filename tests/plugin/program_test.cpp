@@ -215,14 +215,22 @@ TEST(Program, TheLastOfTwoEqualOptionsCounts) {
 }
 
 /** A ring that is nearly closed: a string through it touches it on both sides, which one arc cannot say. */
+/** A string in the groove between two spheres that overlap. */
 TEST(Program, DegradedStepsMakeItFailUnlessTheyAreAllowed) {
+    const auto makeSphere = [](const std::string& name, const std::string& z) {
+        return "<WrapSphere name=\"" + name + "\"><translation>0 0 " + z +
+               "</translation><radius>0.025</radius></WrapSphere>";
+    };
     const std::string file =
         writeEditedModel("accepted/torus_beside_the_line.osim",
-                         {{"<xyz_body_rotation>1.5707963267948966 0 0</xyz_body_rotation>", ""},
-                          {"<inner_radius>0.004</inner_radius>", "<inner_radius>0.0105</inner_radius>"},
-                          {"<outer_radius>0.01</outer_radius>", "<outer_radius>0.011</outer_radius>"},
-                          {"<location>0.015 0.1 0</location>", "<location>-0.002729 -0.011964 -0.029629</location>"},
-                          {"<location>0.015 -0.1 0</location>", "<location>0.002853 0.019488 0.053593</location>"}});
+                         {{"<WrapTorus name=\"c\"><xyz_body_rotation>1.5707963267948966 0 0</xyz_body_rotation>"
+                           "<inner_radius>0.004</inner_radius><outer_radius>0.01</outer_radius></WrapTorus>",
+                           makeSphere("c", "0.018") + makeSphere("d", "-0.018")},
+                          {"<PathWrap name=\"w\"><wrap_object>c</wrap_object></PathWrap>",
+                           "<PathWrap name=\"w\"><wrap_object>c</wrap_object></PathWrap>"
+                           "<PathWrap name=\"v\"><wrap_object>d</wrap_object></PathWrap>"},
+                          {"<location>0.015 0.1 0</location>", "<location>0.03 0.2 0</location>"},
+                          {"<location>0.015 -0.1 0</location>", "<location>-0.01 -0.2 0</location>"}});
     const std::string command = "run " + file + " --duration 0.05 --out " + makeFolder("degraded").string();
     const Outcome refused = runTautline(command);
     EXPECT_EQ(refused.exitCode, 3) << refused.text;
