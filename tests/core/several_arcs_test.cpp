@@ -7,6 +7,7 @@ arcs split, join, come and go. */
 #include <cmath>
 #include <cstdio>
 
+#include "paths/arc_changes.h"
 #include "paths/path_newton.h"
 #include "support/path_scene.h"
 #include "support/planar_hull.h"
@@ -145,6 +146,31 @@ TEST(SeveralArcs, OverACorrugatedSheetAreTheHullOfItsSection) {
                     EXPECT_NEAR(path.contacts[1].getArc(i).geodesic.Q.x.x(), hull.getArcs()[i].to, 1e-7);
                 }
             }
+}
+
+// Over bodies with thin walls the lowest height of a line may be in a hollow, where no string rests: it begins on the
+// hull.
+TEST(SeveralArcs, BeginOnTheHullWhereALineIsWatchedInAHollow) {
+    constexpr double b = 0.05, k = 2 * kPi, c = 0.02;
+    const SheetCurve curve = makeRidges(b, k, c);
+    const Vec2 A(-2.45, -0.15), B(1.55, -0.08);
+    const PlanarHull hull(curve, A, B);
+    const auto sheet = makeSheet(false, b, k, c);
+    LineClearance clearance;
+    clearance.C = sheet->findSurfacePoint(Vec3(-0.5, 0, curve.g(-0.5)));
+    clearance.N = sheet->calcFrame(clearance.C, Vec3::UnitX()).N;
+    clearance.distance = -0.05;
+    const Vec3 A_S(A[0], 0, A[1]), B_S(B[0], 0, B[1]);
+    std::vector<GeodesicStart> further;
+    std::vector<GeodesicStart> arcs{calcTouchingArcs(*sheet, A_S, B_S, clearance, further)};
+    arcs.insert(arcs.end(), further.begin(), further.end());
+    ASSERT_EQ(arcs.size(), hull.getArcs().size());
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+        const double spacing = 4.0 / 96;
+        EXPECT_NEAR(arcs[i].point.p.x(), hull.getArcs()[i].from, spacing);
+        EXPECT_NEAR(arcs[i].point.p.x() + arcs[i].length, hull.getArcs()[i].to, 2 * spacing);
+        EXPECT_GT(arcs[i].tangent.x(), 0.8);
+    }
 }
 
 /** z = b cos kx cos ky - c x^2. */

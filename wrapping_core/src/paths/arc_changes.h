@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <vector>
+
 #include "paths/posed_problem.h"
 
 namespace tautline {
@@ -25,15 +27,19 @@ bool joinArcs(const PosedProblem& scene, PathSolution& path);
 @param path   with segments. @return false if no obstacle has several */
 bool joinNearestArcs(const PosedProblem& scene, PathSolution& path);
 
-/** One more arc where a segment passes below the surface that it has left, or comes to. */
+/** The arcs for Newton's method of a string from A to B, both in S, that touches a surface along the segment between:
+one over the place where the clearance was measured; where the surface is hollow there, those of the hull of its section
+by the plane through the segment and the normal there.
+@param further   the arcs after the first, in path order
+@return the first */
+GeodesicStart calcTouchingArcs(const Surface& surface, const Vec3& A_S, const Vec3& B_S, const LineClearance& clearance,
+                               std::vector<GeodesicStart>& further);
+
+/** One arc or more where a segment passes below the surface that it has left, or comes to. */
 void touchAgain(const PosedProblem& scene, int element, int segment, PathSolution& path);
 
 /** Takes one arc of a touched obstacle out of contact. */
 void liftArc(int arc, ObstacleContact& contact);
-
-/** The start of an arc for Newton's method: that of the string from A to B, both in S, over the osculating circle at
-the place where the clearance was measured. Of length zero where the line just touches. */
-GeodesicStart calcTouchingArc(const Surface& surface, const Vec3& A_S, const Vec3& B_S, const LineClearance& clearance);
 
 /** Calls visit(arc) for all arcs in path order. */
 template <class Contacts, class Visitor>

@@ -36,9 +36,12 @@ void switchContact(const PathProblem& problem, const PathPose& pose, int element
     if (contact.isTouched) return switchArc({problem, pose}, element, path);
     const StraightSegment& line = path.segments[contact.segment];
     const Pose& X_GS = pose.X_GE[element];
+    std::vector<GeodesicStart> further;
+    contact.start = calcTouchingArcs(*problem.getElement(element).surface, X_GS.shiftBack(line.A),
+                                     X_GS.shiftBack(line.B), contact.clearance, further);
     contact.isTouched = true;
-    contact.start = calcTouchingArc(*problem.getElement(element).surface, X_GS.shiftBack(line.A),
-                                    X_GS.shiftBack(line.B), contact.clearance);
+    contact.furtherArcs.clear();
+    for (const GeodesicStart& start : further) contact.furtherArcs.emplace_back().start = start;
 }
 
 void liftContact(ObstacleContact& contact) {
