@@ -8,6 +8,7 @@
 
 #include "cable_subsystem_impl.h"
 #include "contact_event_handler.h"
+#include "same_pose.h"
 #include "tautline/error.h"
 #include "tautline/paths/contact_witness.h"
 #include "tautline/paths/path_explanation.h"
@@ -47,14 +48,6 @@ ContactEvent::Kind toContactEventKind(PathEvent::Kind kind) {
             break;
     }
     return ContactEvent::Kind::Slipped;
-}
-
-/** Whether two poses are the same, bit by bit. */
-bool isSamePose(const PathPose& a, const PathPose& b) {
-    if (a.X_GE.size() != b.X_GE.size() || a.isActive != b.isActive) return false;
-    for (std::size_t e = 0; e < a.X_GE.size(); ++e)
-        if (a.X_GE[e].p != b.X_GE[e].p || a.X_GE[e].R != b.X_GE[e].R) return false;
-    return true;
 }
 
 /** Whether any body may have come round once since the last accepted step. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tautline/simbody/clearance_probe.h"
 
+#include "same_pose.h"
 #include "tautline/paths/segment_clearance.h"
 
 namespace tautline {
@@ -54,10 +55,25 @@ LineClearance ClearanceProbe::calcClearance(const SimTK::State& state) {
         m_loose = path;
         return contact.clearance;
     }
-    PathPose without = m_cable.getPathPose(state);
+    if (!isKnown(m_cable.getPathPose(state), contact.start)) {
+        m_pose = m_cable.getPathPose(state);
+        m_arc = contact.start;
+        m_depth = calcDepth(path);
+    }
+    return m_depth;
+}
+
+bool ClearanceProbe::isKnown(const PathPose& pose, const GeodesicStart& arc) const {
+    return isSamePose(m_pose, pose) && m_arc.length == arc.length && m_arc.point.p == arc.point.p &&
+           m_arc.tangent == arc.tangent;
+}
+
+/** At m_pose. */
+LineClearance ClearanceProbe::calcDepth(const PathSolution& path) {
+    PathPose without = m_pose;
     without.isActive[m_obstacle] = 0;
     const Surface& surface = *m_cable.getSurface(m_obstacle);
-    LineClearance clearance = watchAtMiddle(surface, contact.start);
+    LineClearance clearance = watchAtMiddle(surface, m_arc);
     if (!solveWithout(without, path)) return clearance;
     const StraightSegment& segment = findPassingSegment(m_loose, m_obstacle);
     findSegmentClearance(surface, without.X_GE[m_obstacle], segment.A, segment.B, clearance);

@@ -7,7 +7,9 @@ and how they go through touchdown. */
 #include <iostream>
 
 #include "model_test_support.h"
+#include "support/counting_surface.h"
 #include "tautline/models/model_system.h"
+#include "tautline/surfaces/sphere.h"
 
 namespace tautline::models::testing {
 namespace {
@@ -105,6 +107,36 @@ TEST(ClearanceProbe, IsSmoothThroughTouchdown) {
     }
     std::cout << "largest fourth difference quotient " << largest << "\n";
     EXPECT_LT(largest, 20) << "the curvature of d jumps by no more than 2e-5";
+}
+
+/** What watches the depth begins with the middle of the arc, which is shot. */
+TEST(ClearanceProbe, AnUnchangedPoseCostsNothing) {
+    SimTK::MultibodySystem system;
+    SimTK::SimbodyMatterSubsystem matter(system);
+    CableSubsystem cables(system);
+    const SimTK::MobilizedBody::Slider slider(matter.Ground(), SimTK::Transform(), SimTK::Body::Massless(),
+                                              SimTK::Transform());
+    Cable cable(cables, matter.Ground(), SimTK::Vec3(-2, 0, 0), slider, SimTK::Vec3(2, 0, 0));
+    const auto surface = std::make_shared<tautline::testing::CountingSurface>(std::make_shared<Sphere>(0.5));
+    const CableElementIndex sphere =
+        cable.addObstacle(matter.Ground(), SimTK::Vec3(0, -0.4, 0), surface, SimTK::Vec3(0, 0.5, 0));
+    ClearanceProbe probe(cable, sphere);
+    SimTK::State state = system.realizeTopology();
+    const auto countShots = [&] {
+        system.realize(state, SimTK::Stage::Position);
+        EXPECT_TRUE(cable.isTouched(state, sphere));
+        const long before = surface->getNumShots();
+        EXPECT_NEAR(probe.calcClearance(state).distance, -0.1, 1e-12);
+        return surface->getNumShots() - before;
+    };
+    EXPECT_GT(countShots(), 0);
+    EXPECT_EQ(countShots(), 0);
+    state.updU() = 1;
+    EXPECT_EQ(countShots(), 0);
+    state.setTime(1);  // all is realized anew, in the same pose
+    EXPECT_EQ(countShots(), 0);
+    slider.setOneQ(state, 0, 0.1);
+    EXPECT_GT(countShots(), 0);
 }
 
 TEST(ClearanceProbe, FindsTheSameOfACableThatComparesWithColdSolves) {

@@ -7,12 +7,13 @@
 
 namespace tautline::testing {
 
-/** A surface as it is, whose heights are counted. */
+/** A surface as it is, whose heights and geodesics are counted. */
 class CountingSurface final : public SurfaceDecorator<Surface, std::shared_ptr<const Surface>> {
 public:
     explicit CountingSurface(std::shared_ptr<const Surface> base) : SurfaceDecorator(std::move(base)) {}
 
     long getNumHeights() const { return m_numHeights; }
+    long getNumShots() const { return m_numShots; }
 
     double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
         ++m_numHeights;
@@ -26,11 +27,12 @@ public:
         return getBase().calcFrame(point, direction_S);
     }
     void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
+        ++m_numShots;
         getBase().shootGeodesic(start, options, geodesic);
     }
 
 private:
-    mutable long m_numHeights = 0;
+    mutable long m_numHeights = 0, m_numShots = 0;
 };
 
 }  // namespace tautline::testing

@@ -8,7 +8,8 @@ namespace tautline {
 tables and plots: smooth through touchdown and lift-off. While the obstacle is touched, the segment is that of the
 path which would be there without this obstacle, so that the distance is negative.
 
-One per obstacle and sequence of poses: it remembers the path without the obstacle and continues from it. */
+One per obstacle and sequence of poses: it remembers the path without the obstacle and continues from it. Asked again in
+an unchanged pose it solves nothing. */
 class ClearanceProbe {
 public:
     ClearanceProbe(const Cable& cable, CableElementIndex obstacle) : m_cable(cable), m_obstacle(obstacle) {}
@@ -18,11 +19,16 @@ public:
     LineClearance calcClearance(const SimTK::State& state);
 
 private:
+    bool isKnown(const PathPose& pose, const GeodesicStart& arc) const;
+    LineClearance calcDepth(const PathSolution& path);
     bool solveWithout(const PathPose& without, const PathSolution& path);
 
     Cable m_cable;
     CableElementIndex m_obstacle;
-    PathSolution m_loose;  ///< the last path without the obstacle; empty: none yet
+    PathSolution m_loose;   ///< the last path without the obstacle; empty: none yet
+    PathPose m_pose;        ///< where the obstacle was last found touched; empty: nowhere yet
+    GeodesicStart m_arc;    ///< of the contact there
+    LineClearance m_depth;  ///< and the answer
 };
 
 }  // namespace tautline
