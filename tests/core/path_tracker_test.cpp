@@ -5,9 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "support/counting_surface.h"
 #include "support/moving_scenes.h"
+#include "support/seeded_random.h"
 #include "tautline/paths/path_solver.h"
 #include "tautline/surfaces/cylinder.h"
 #include "tautline/surfaces/ellipsoid.h"
@@ -149,6 +153,49 @@ TEST(PathTracker, SaysThatAMotionIsTooFastToFollow) {
     EXPECT_EQ(PathTracker::calcStatus(winch.problem, winch.path), PathStatus::NotConverged);
     EXPECT_EQ(PathTracker::calcStabilityWitness(winch.problem, winch.path, winch.path), -1);
     EXPECT_TRUE(std::isfinite(winch.path.solution.length));
+}
+
+/** Two ellipsoids that the string passes side by side on both, and a body that is flung off: most of these poses have
+no path with the same contacts. 2026-11-27: an integrator's trial cost up to 17,000 geodesics, seconds over a height
+map. */
+TEST(PathTracker, APoseThatContactsDoNotFitCostsLittle) {
+    constexpr long kMost = 1500;  // kMaxFollowShots, one part beyond it and the first try
+    testing::SeededRandom random(20261127);
+    long most = 0;
+    int lost = 0;
+    for (int i = 0; i < 200; ++i) {
+        PathProblem problem;
+        problem.addPoint("A");
+        std::vector<std::shared_ptr<const testing::CountingSurface>> surfaces;
+        TrackedPath start;
+        start.pose.X_GE.emplace_back(Vec3(-2, 0, random.uniform(-0.2, 0.2)));
+        for (int k = 0; k < 2; ++k) {
+            const Vec3 axes(random.uniform(0.2, 0.6), random.uniform(0.2, 0.6), random.uniform(0.2, 0.6));
+            surfaces.push_back(std::make_shared<testing::CountingSurface>(std::make_shared<Ellipsoid>(axes)));
+            problem.addObstacle("s" + std::to_string(k), surfaces.back(), PassNear{Vec3(0, axes.y(), 0)});
+            start.pose.X_GE.emplace_back(random.pose(0.1).R, Vec3(1.4 * k - 0.7, -0.1, 0));
+        }
+        problem.addPoint("B");
+        start.pose.X_GE.emplace_back(Vec3(2, -0.2, random.uniform(-0.2, 0.2)));
+        PathTracker tracker;
+        tracker.solve(problem, start);
+        const auto isTouched = [](const ObstacleContact& contact) { return contact.isTouched; };
+        const auto& contacts = start.solution.contacts;
+        const long touched = std::count_if(contacts.begin(), contacts.end(), isTouched);
+        if (start.solution.status != PathStatus::Solved || touched == 0) continue;
+        TrackedPath trial;
+        trial.pose = start.pose;
+        trial.time = 1;
+        for (Pose& X : trial.pose.X_GE) X.p += random.vector(1.5);
+        const auto countShots = [&] { return surfaces[0]->getNumShots() + surfaces[1]->getNumShots(); };
+        const long before = countShots();
+        tracker.track(problem, start, {}, trial);
+        most = std::max(most, (countShots() - before) / touched);
+        lost += trial.solution.status == PathStatus::NotConverged;
+    }
+    std::printf("[measured] %d of 200 poses without a path, at most %ld geodesics per contact\n", lost, most);
+    EXPECT_GT(lost, 20);
+    EXPECT_LT(most, kMost);
 }
 
 TEST(PathTracker, FindsContactsAnewWhereNothingIsKnown) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "paths/search_limits.h"
 #include "tautline/paths/path_stability.h"
 
 namespace tautline {
@@ -23,6 +24,11 @@ bool isNear(const PathProblem& problem, const PathSolution& a, const PathSolutio
     return true;
 }
 
+int countTouched(const PathSolution& path) {
+    return static_cast<int>(std::count_if(path.contacts.begin(), path.contacts.end(),
+                                          [](const ObstacleContact& contact) { return contact.isTouched; }));
+}
+
 }  // namespace
 
 bool isHoldingPath(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
@@ -33,6 +39,8 @@ bool PathFollower::follow(PathSolver& solver, const PathProblem& problem, const 
                           double largestPart, PathSolution& path) {
     PathSolution reached = path;
     double share = 0, part = firstPart;
+    m_shots = 0;
+    const long mostShots = static_cast<long>(kMaxFollowShots) * countTouched(path);
     while (share < 1) {
         const double trial = std::min(1.0, share + part);
         way.calcPose(trial, m_pose);
@@ -42,7 +50,7 @@ bool PathFollower::follow(PathSolver& solver, const PathProblem& problem, const 
             part = std::min(2 * part, largestPart);
         } else {
             part /= 2;
-            if (part < kShortestPart * largestPart) return false;
+            if (part < kShortestPart * largestPart || m_shots > mostShots) return false;
         }
     }
     path = reached;
@@ -51,17 +59,28 @@ bool PathFollower::follow(PathSolver& solver, const PathProblem& problem, const 
 
 bool PathFollower::step(PathSolver& solver, const PathProblem& problem, const PathSolution& reached) {
     m_next = reached;
-    solver.solveKeepingContacts(problem, m_pose, m_next);
-    return isHoldingPath(problem, m_pose, m_next) || slide(solver, problem, reached);
+    solve(solver, problem);
+    if (isHoldingPath(problem, m_pose, m_next)) return true;
+    // Else the solve itself has tried to go downhill from there.
+    return !m_next.report.usedMinimizer && slide(solver, problem, reached);
 }
 
 /** Downhill from where the path was: where a path that was the shortest becomes a saddle, two others part from it as
 the square root of the way, and Newton's method stays on the saddle. */
 bool PathFollower::slide(PathSolver& solver, const PathProblem& problem, const PathSolution& reached) {
     m_next = reached;
-    if (!m_minimizer.minimize(problem, m_pose, m_next)) return false;
-    solver.solveKeepingContacts(problem, m_pose, m_next);
+    m_next.shots = 0;
+    const bool isStationary = m_minimizer.minimize(problem, m_pose, m_next);
+    m_shots += m_next.shots;
+    if (!isStationary) return false;
+    solve(solver, problem);
     return isHoldingPath(problem, m_pose, m_next) && isNear(problem, reached, m_next);
+}
+
+/** m_next at m_pose. */
+void PathFollower::solve(PathSolver& solver, const PathProblem& problem) {
+    solver.solveKeepingContacts(problem, m_pose, m_next);
+    m_shots += m_next.shots;
 }
 
 }  // namespace tautline

@@ -8,9 +8,11 @@ namespace tautline {
 
 /** Carries a path on, its contacts kept, to a pose that lies too far for Newton's method: continuation in parts of the
 way, each halved until it succeeds (Allgower and Georg, Introduction to Numerical Continuation Methods, 2003, ch. 2).
-A string that would slip off on the way is not followed. Holds the workspace. */
+A string that would slip off on the way is not followed. Most poses that cannot be followed are trials of an integrator,
+which need only be told so: the work is bounded (search_limits.h). Holds the workspace. */
 class PathFollower {
 public:
+    /** @param options   of the minimizer */
     explicit PathFollower(const PathSolverOptions& options) : m_minimizer(options) {}
 
     /** @param firstPart     of the way, in (0, 1]
@@ -23,8 +25,10 @@ public:
 private:
     bool step(PathSolver& solver, const PathProblem& problem, const PathSolution& reached);
     bool slide(PathSolver& solver, const PathProblem& problem, const PathSolution& reached);
+    void solve(PathSolver& solver, const PathProblem& problem);
 
     LengthMinimizer m_minimizer;
+    long m_shots = 0;     ///< so far
     PathPose m_pose;      ///< on the way
     PathSolution m_next;  ///< the path there
 };

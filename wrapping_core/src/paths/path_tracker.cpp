@@ -10,6 +10,7 @@
 #include "paths/path_following.h"
 #include "paths/pose_motion.h"
 #include "paths/posed_problem.h"
+#include "paths/search_limits.h"
 #include "paths/threading.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_explanation.h"
@@ -128,14 +129,23 @@ std::vector<PathEvent> listEvents(const PathProblem& problem, const PathSolution
     return events;
 }
 
+PathSolverOptions limitIterations(PathSolverOptions options) {
+    options.maxIterations = std::min(options.maxIterations, kMaxPartIterations);
+    return options;
+}
+
 }  // namespace
 
 struct PathTracker::Workspace {
     explicit Workspace(const PathSolverOptions& options)
-        : solver(options), continuer(options.withoutSearch()), follower(options) {}
+        : solver(options),
+          continuer(options.withoutSearch()),
+          brief(limitIterations(options)),
+          follower(limitIterations(options)) {}
 
     PathSolver solver;
     PathSolver continuer;  ///< finds nothing anew
+    PathSolver brief;      ///< for poses that can be come to in parts
     PathFollower follower;
     Route asked;
     ContactSettler settler;
@@ -192,7 +202,8 @@ void PathTracker::track(const PathProblem& problem, const TrackedPath& start, co
     const bool canFollow = isGoodStart(start), isFar = canFollow && turnsFar(problem, start, motion, path);
     if (isFar && follow(problem, start, motion, 1, path)) return;
     solution = start.solution;
-    m_workspace->solver.solveKeepingContacts(problem, path.pose, solution);
+    PathSolver& solver = canFollow ? m_workspace->brief : m_workspace->solver;
+    solver.solveKeepingContacts(problem, path.pose, solution);
     if (hasSwallowedEnd(solution)) return;
     // A path that has lost its turns is not the one that was asked for.
     if (isFar) {
@@ -218,7 +229,7 @@ bool PathTracker::follow(const PathProblem& problem, const TrackedPath& start, c
     if (!(turn < kMostTurns)) return false;
     const double largestPart = kMaxTurn / turn;
     PathSolution followed = start.solution;
-    if (!m_workspace->follower.follow(m_workspace->solver, problem, way, std::min(firstPart, largestPart), largestPart,
+    if (!m_workspace->follower.follow(m_workspace->brief, problem, way, std::min(firstPart, largestPart), largestPart,
                                       followed))
         return false;
     path.solution = followed;
