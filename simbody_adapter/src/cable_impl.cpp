@@ -455,17 +455,20 @@ void CableImpl::handleContactEvent(State& state) const {
 }
 
 /** The path of this state as if the conditions of points and obstacles still were those of the step's start: what it
-was just before they changed. */
+was just before they changed. Of a string that has jumped the last path that was known, a short step ago. */
 TrackedPath CableImpl::calcPathBeforeSwitch(const State& state) const {
     const TrackedPath& start = m_cables.getStates().getStart(state, m_index).get();
-    const TrackedPath& path = getCablePath(state);
-    if (start.solution.isEmpty() || start.pose.isActive == path.pose.isActive) return path;
+    const CablePath& path = getCablePath(state);
+    if (start.solution.isEmpty()) return path;
+    // A path that has come to its end is found at this pose no more.
+    if (path.stabilityWitness == -1 && path.solution.status == PathStatus::NotMinimum) return start;
+    if (start.pose.isActive == path.pose.isActive) return path;
     TrackedPath before = path;
     before.pose.isActive = start.pose.isActive;
     const CableWorkspaces::Loan workspace = m_workspaces->lend();
     calcStartMotion(state, start, workspace->startMotion);
     workspace->tracker.track(m_problem, start, workspace->startMotion, before);
-    return before.solution.status == PathStatus::NotConverged ? path : before;
+    return before.solution.status == PathStatus::NotConverged ? TrackedPath(path) : before;
 }
 
 void CableImpl::calcStartMotion(const State& state, const TrackedPath& start, PathMotion& motion) const {

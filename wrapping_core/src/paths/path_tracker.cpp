@@ -73,6 +73,31 @@ bool turnsFar(const PathProblem& problem, const TrackedPath& start, const PathMo
     return isFar;
 }
 
+/** The most by which the length of a path changes between two poses that are less than half a radian apart, if it goes
+over continuously: its rate is the power of its forces, which are no larger than 2 on each element. [m] */
+double calcMostChange(const PathProblem& problem, const TrackedPath& start, const PathPose& pose) {
+    constexpr double kMostForce = 2 * 1.5;  // and contacts move on the way
+    double change = 0;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        const Pose &before = start.pose.X_GE[e], &after = pose.X_GE[e];
+        const auto calcMove = [&](const Vec3& p) { return (after * p - before * p).norm(); };
+        const ObstacleContact& contact = start.solution.contacts[e];
+        if (problem.getElement(e).isPoint()) change += kMostForce * calcMove(Vec3::Zero());
+        if (contact.isTouched)
+            change +=
+                kMostForce * std::max(calcMove(contact.geodesic.P.x), calcMove(contact.getLastArc().geodesic.Q.x));
+    }
+    return change;
+}
+
+/** Whether a string has lost its path, and the minimizer has come to another minimum: shorter by more than any motion
+shortens it. */
+bool hasJumped(const PathProblem& problem, const TrackedPath& start, const TrackedPath& path) {
+    if (start.pose.isActive != path.pose.isActive) return false;
+    const double most = calcMostChange(problem, start, path.pose) + kContinuousLength * start.solution.length;
+    return path.solution.length < start.solution.length - most;
+}
+
 /** The answer for a pose that is not finite: nothing to draw, nothing that pulls. */
 void makeEmptyPath(const PathProblem& problem, PathSolution& path) {
     path = PathSolution();
@@ -106,6 +131,21 @@ void listArcEvents(int e, int atStart, int before, int after, std::vector<PathEv
         events.push_back({before > atStart ? Kind::Split : Kind::Joined, e});
     if (before > 0 && after > 0 && after != before)
         events.push_back({after > before ? Kind::ArcMade : Kind::ArcLost, e});
+}
+
+/** The obstacle on which a path has moved farthest, in sizes. */
+int findFarthestMoved(const PathProblem& problem, const PathSolution& from, const PathSolution& to) {
+    int farthest = -1;
+    double most = -1;
+    for (int e = 0; e < problem.getNumElements(); ++e) {
+        if (problem.getElement(e).isPoint() || !from.contacts[e].isTouched) continue;
+        const double moved = to.contacts[e].isTouched
+                                 ? (to.contacts[e].geodesic.P.x - from.contacts[e].geodesic.P.x).norm() /
+                                       problem.getElement(e).surface->getSize()
+                                 : kInfinity;
+        if (moved > most) most = moved, farthest = e;
+    }
+    return farthest;
 }
 
 std::vector<PathEvent> listEvents(const PathProblem& problem, const PathSolution& start, const PathSolution& before,
@@ -210,9 +250,16 @@ void PathTracker::track(const PathProblem& problem, const TrackedPath& start, co
         solution.status = PathStatus::NotConverged;
         return;
     }
-    if (isHoldingPath(problem, path.pose, solution)) return;
+    if (isHoldingPath(problem, path.pose, solution)) {
+        const bool mayHaveJumped = canFollow && solution.report.usedMinimizer;
+        if (mayHaveJumped && hasJumped(problem, start, path)) solution.status = PathStatus::NotMinimum;
+        return;
+    }
     PathStatus status = solution.status;
-    if (canFollow && follow(problem, start, motion, 0.5, path)) return;
+    if (canFollow && follow(problem, start, motion, 0.5, path)) {
+        if (hasJumped(problem, start, path)) solution.status = PathStatus::NotMinimum;
+        return;
+    }
     if (status == PathStatus::Solved) solution.status = PathStatus::NotMinimum;
 }
 
@@ -240,8 +287,11 @@ std::vector<PathEvent> PathTracker::resolveEvent(const PathProblem& problem, con
                                                  TrackedPath& path) {
     const PathSolution before = path.solution;
     const PathSolution& from = start.solution.isEmpty() ? before : start.solution;
+    const bool isElsewhereNow = isGoodStart(start) && isElsewhere(problem, path);
+    if (isElsewhereNow) path.solution.status = PathStatus::Solved;  // a minimum, though not the one that it was
     prepareContacts(from, path.solution);
-    const int slippedAt = m_workspace->settler.settle(m_workspace->solver, problem, path.pose, path.solution);
+    int slippedAt = m_workspace->settler.settle(m_workspace->solver, problem, path.pose, path.solution);
+    if (isElsewhereNow && slippedAt < 0) slippedAt = findFarthestMoved(problem, from, path.solution);
     return listEvents(problem, from, before, path.solution, slippedAt);
 }
 
@@ -260,6 +310,7 @@ double PathTracker::calcStabilityWitness(const PathProblem& problem, const Track
     double threshold = kSlipMargin;
     if (start.solution.status == PathStatus::NotMinimum && !start.pose.X_GE.empty())
         threshold = kGrowth * std::min(calcMargin(start), kSlipMargin);
+    if (isGoodStart(start) && isElsewhere(problem, path)) return -1;
     const double margin = calcMargin(path) - threshold;
     return margin == 0 ? -kTiny : margin;
 }

@@ -94,7 +94,7 @@ public:
     void settle(const PathProblem& problem, TrackedPath& path);
 
     /** Falls through zero where a path has no minimum near it any more, to kSlipMargin: -1 where it could not be found
-    at all. A saddle that could not be left is tried again whenever its instability has grown tenfold.
+    at all, or only another minimum was, to which the string would have to jump. A saddle that could not be left is tried again whenever its instability has grown tenfold.
     @param start   from which `path` was tracked */
     static double calcStabilityWitness(const PathProblem& problem, const TrackedPath& start, const TrackedPath& path);
 
