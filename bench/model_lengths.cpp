@@ -70,7 +70,7 @@ FrameTimes timeFrames(models::ModelSystem& model, const Motion& motion) {
     SimTK::Vector unitForces;
     double sum = 0;
     for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
-        if (frame % models::PathStudy::kPosesPerBlock == 0)
+        if (frame % kPosesPerBlock == 0)
             model.getCables().forgetPaths(state);
         else
             model.getCables().acceptPaths(state);

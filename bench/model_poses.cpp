@@ -3,15 +3,13 @@
 Python with. */
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
-#include <thread>
 
 #include "tautline/models/osim_reader.h"
-#include "tautline/models/path_study.h"
+#include "tautline/models/parallel_study.h"
 
 namespace {
 
@@ -45,26 +43,23 @@ void writeNumbers(const PathStudy& study, const std::vector<PoseAnswer>& answers
     }
 }
 
-/** Works through the poses: each worker has a study of its own and takes blocks of poses. */
-std::vector<PoseAnswer> solveAll(std::vector<PathStudy>& studies, const std::vector<double>& numbers) {
-    constexpr std::size_t kBlock = PathStudy::kPosesPerBlock;
-    const std::vector<std::string>& names = studies.front().getCoordinateNames();
-    const std::size_t count = numbers.size() / names.size();
-    std::vector<PoseAnswer> answers(count);
-    std::atomic<std::size_t> next{0};
-    std::vector<std::thread> threads;
-    for (PathStudy& study : studies)
-        threads.emplace_back([&] {
-            for (std::size_t first = next.fetch_add(kBlock); first < count; first = next.fetch_add(kBlock))
-                for (std::size_t i = first; i < std::min(first + kBlock, count); ++i) {
-                    ModelPose pose;
-                    for (std::size_t c = 0; c < names.size(); ++c)
-                        pose.values[names[c]] = numbers[i * names.size() + c];
-                    answers[i] = study.solve(pose, static_cast<int>(i));
-                }
-        });
-    for (std::thread& thread : threads) thread.join();
+std::vector<PoseAnswer> solveAll(ParallelStudy& study, const std::vector<double>& numbers, int numThreads) {
+    const std::vector<std::string>& names = study.getStudy().getCoordinateNames();
+    std::vector<PoseAnswer> answers;
+    const auto makePose = [&](int i) {
+        ModelPose pose;
+        for (std::size_t c = 0; c < names.size(); ++c)
+            pose.values[names[c]] = numbers[static_cast<std::size_t>(i) * names.size() + c];
+        return pose;
+    };
+    study.solveMany(static_cast<int>(numbers.size() / names.size()), makePose, answers, {numThreads, {}});
     return answers;
+}
+
+/** Numbers of the poses that have all threads make their systems. */
+std::size_t countWarmUp(const ParallelStudy& study, int numThreads) {
+    return static_cast<std::size_t>(numThreads * tautline::kPosesPerBlock) *
+           study.getStudy().getCoordinateNames().size();
 }
 
 }  // namespace
@@ -80,13 +75,14 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     try {
         const ModelDescription description = readOsimFile(model, {{}, true});
-        std::vector<PathStudy> studies;
-        for (int i = 0; i < numThreads; ++i) studies.emplace_back(description);
+        ParallelStudy study(description);
         const std::vector<double> numbers = readNumbers(poses);
+        solveAll(study, {numbers.begin(), numbers.begin() + std::min(numbers.size(), countWarmUp(study, numThreads))},
+                 numThreads);
         const auto begin = std::chrono::steady_clock::now();
-        const std::vector<PoseAnswer> answers = solveAll(studies, numbers);
+        const std::vector<PoseAnswer> answers = solveAll(study, numbers, numThreads);
         std::cout << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() << "\n";
-        if (!out.empty()) writeNumbers(studies.front(), answers, out);
+        if (!out.empty()) writeNumbers(study.getStudy(), answers, out);
     } catch (const std::exception& error) {
         std::cerr << error.what() << "\n";
         return 1;

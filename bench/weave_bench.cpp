@@ -2,9 +2,12 @@
 /** Warm steps of the weave (tests/support/weave_scene.h), with counters; README.md says how to read them. */
 #include <benchmark/benchmark.h>
 
+#include <chrono>
+
 #include "support/allocation_counter.h"
 #include "support/weave_scene.h"
 #include "tautline/paths/path_solver.h"
+#include "tautline/paths/solve_many.h"
 
 namespace {
 
@@ -52,6 +55,41 @@ void stepWeave(benchmark::State& state, WeaveScene::Kind kind) {
     state.counters["s/surface"] = Counter(count, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
+/** Arguments: number of cylinders, and of threads. A row of poses by one thread and by all, in turn, so that both see
+the same machine. */
+void solveWeaves(benchmark::State& state) {
+    using Clock = std::chrono::steady_clock;
+    constexpr int kBlocks = 32;
+    const int count = static_cast<int>(state.range(0)), numThreads = static_cast<int>(state.range(1));
+    const WeaveScene scene(WeaveScene::Kind::Cylinders, count);
+    std::vector<PathPose> poses(kBlocks * kPosesPerBlock);
+    for (std::size_t k = 0; k < poses.size(); ++k)
+        scene.calcPose(static_cast<double>(k) * WeaveScene::kTimeStep, poses[k]);
+    std::vector<PathSolution> out;
+    const auto solve = [&](int threads) {
+        const Clock::time_point begin = Clock::now();
+        solveMany(scene.getProblem(), poses, out, {}, {threads, {}});
+        return std::chrono::duration<double>(Clock::now() - begin).count();
+    };
+    solve(numThreads);
+    double leastOfOne = kInfinity, least = kInfinity, unsolved = 0;
+    for (auto _ : state) {
+        leastOfOne = std::min(leastOfOne, solve(1));
+        const double seconds = solve(numThreads);
+        least = std::min(least, seconds);
+        state.SetIterationTime(seconds);
+        for (const PathSolution& path : out) unsolved += path.status != PathStatus::Solved;
+    }
+    state.counters["unsolved"] = unsolved;
+    state.counters["speedup"] = leastOfOne / least;
+    state.counters["us/pose"] = 1e6 * least / static_cast<double>(poses.size());
+}
+
+BENCHMARK(solveWeaves)
+    ->ArgsProduct({{5, 50}, {1, 2}})
+    ->ArgNames({"n", "threads"})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(stepWeave, Cylinders, WeaveScene::Kind::Cylinders)
     ->ArgsProduct({{1, 5, 10, 50, 100, 1000}, {3, 9}})
     ->ArgNames({"n", "tol"})

@@ -9,7 +9,7 @@
 #include "parallel_work.h"
 #include "simulation.h"
 #include "tautline/models/osim_reader.h"
-#include "tautline/models/path_study.h"
+#include "tautline/models/parallel_study.h"
 
 namespace tautline::python {
 namespace {
@@ -69,10 +69,9 @@ struct Layout {
 /** The answers for n poses. */
 class StudyResults {
 public:
-    StudyResults(std::shared_ptr<const Layout> layout, int count)
-        : m_layout(std::move(layout)), m_answers(static_cast<std::size_t>(count)) {}
+    StudyResults(std::shared_ptr<const Layout> layout, std::vector<models::PoseAnswer> answers)
+        : m_layout(std::move(layout)), m_answers(std::move(answers)) {}
 
-    models::PoseAnswer& upd(int i) { return m_answers[static_cast<std::size_t>(i)]; }
     const models::PoseAnswer& get(int i) const { return m_answers[static_cast<std::size_t>(i)]; }
     int size() const { return static_cast<int>(m_answers.size()); }
     const Layout& getLayout() const { return *m_layout; }
@@ -150,18 +149,14 @@ private:
     std::vector<models::PoseAnswer> m_answers;
 };
 
-/** Paths of a model in poses, with a system of its own for each thread. */
+/** Paths of a model in poses. */
 class Study {
 public:
     Study(const Model& model, const std::optional<std::vector<std::string>>& paths)
-        : m_description(model.description), m_wanted(paths) {
-        {
-            const py::gil_scoped_release released;
-            addWorker();
-        }
+        : m_study(makeStudy(*model.description, paths)) {
         auto layout = std::make_shared<Layout>();
-        layout->paths = m_workers.front().getPaths();
-        layout->coordinates = m_workers.front().getCoordinateNames();
+        layout->paths = m_study.getStudy().getPaths();
+        layout->coordinates = m_study.getStudy().getCoordinateNames();
         m_layout = layout;
         for (const std::string& name : paths.value_or(std::vector<std::string>())) {
             const std::vector<std::string> known = layout->getPathNames();
@@ -180,15 +175,8 @@ public:
         const py::ssize_t count = q.shape(0);
         if (u) requireShape(*u, "u", {count, numCoordinates});
         if (times) requireShape(*times, "times", {count});
-        constexpr int kBlock = models::PathStudy::kPosesPerBlock;
-        const int numWorkers = countWorkers(static_cast<int>(count), numThreads, kBlock);
-        {
-            const py::gil_scoped_release released;
-            while (static_cast<int>(m_workers.size()) < numWorkers) addWorker();
-        }
-        auto results = std::make_shared<StudyResults>(m_layout, static_cast<int>(count));
         const double *values = q.data(), *speeds = u ? u->data() : nullptr, *at = times ? times->data() : nullptr;
-        const auto solvePose = [&](int worker, int i) {
+        const auto makePose = [&](int i) {
             models::ModelPose pose;
             if (at) pose.time = at[i];
             for (py::ssize_t c = 0; c < numCoordinates; ++c) {
@@ -196,23 +184,25 @@ public:
                 pose.values[name] = values[i * numCoordinates + c];
                 if (speeds) pose.speeds[name] = speeds[i * numCoordinates + c];
             }
-            results->upd(i) = m_workers[static_cast<std::size_t>(worker)].solve(pose, i);
+            return pose;
         };
-        runParallel(static_cast<int>(count), numThreads, solvePose, kBlock);
-        return results;
+        std::vector<models::PoseAnswer> answers;
+        runInterruptibly(numThreads, [&](const Threads& threads) {
+            return m_study.solveMany(static_cast<int>(count), makePose, answers, threads);
+        });
+        return std::make_shared<StudyResults>(m_layout, std::move(answers));
     }
 
 private:
-    void addWorker() {
-        const auto isWanted = [this](const std::string& name) {
-            return !m_wanted || std::find(m_wanted->begin(), m_wanted->end(), name) != m_wanted->end();
-        };
-        m_workers.emplace_back(*m_description, isWanted);
+    static models::ParallelStudy makeStudy(const ModelDescription& description,
+                                           const std::optional<std::vector<std::string>>& wanted) {
+        const py::gil_scoped_release released;
+        return models::ParallelStudy(description, [wanted](const std::string& name) {
+            return !wanted || std::find(wanted->begin(), wanted->end(), name) != wanted->end();
+        });
     }
 
-    std::shared_ptr<const ModelDescription> m_description;
-    std::optional<std::vector<std::string>> m_wanted;
-    std::vector<models::PathStudy> m_workers;
+    models::ParallelStudy m_study;
     std::shared_ptr<const Layout> m_layout;
 };
 

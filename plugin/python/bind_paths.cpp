@@ -68,7 +68,7 @@ public:
 
     void solve(const PathSolverOptions& options, int numThreads) {
         std::vector<PathSolver> solvers;
-        for (int i = 0; i < countWorkers(size(), numThreads); ++i) solvers.emplace_back(options);
+        for (int i = 0; i < countWorkers(size(), kItemsPerBlock, {numThreads, {}}); ++i) solvers.emplace_back(options);
         runParallel(size(), numThreads, [&](int worker, int i) {
             solvers[static_cast<std::size_t>(worker)].solve(m_problem, pose(i), m_paths[static_cast<std::size_t>(i)]);
         });

@@ -2,23 +2,23 @@
 #pragma once
 #include <functional>
 
+#include "tautline/paths/parallel_blocks.h"
+
 namespace tautline::python {
 
-/** So many items in a row go to a worker, unless said otherwise: neighbors have much in common. */
+/** So many items in a row go to a worker: neighbors have much in common. */
 inline constexpr int kItemsPerBlock = 16;
 
-/** Calls work(worker, i) for every i below `count`, on several threads, with Python's lock released. What work throws
-ends all workers and is thrown here, as is KeyboardInterrupt after Ctrl-C.
+/** Calls work(threads) with Python's lock released; what it throws is thrown here. It hands `threads` on, so that
+Ctrl-C ends it, and says whether it was done; if not, KeyboardInterrupt is thrown. */
+void runInterruptibly(int numThreads, const std::function<bool(const Threads& threads)>& work);
+
+/** Calls work(worker, i) for every i below `count`, as runBlocks() and interruptibly.
 @param numThreads   0: as many as the machine has
-@param work   called with the worker's number and i; may take Python's lock
-@param itemsPerBlock   from the first item on, so many go to one worker, in the order of i and with none between them */
-void runParallel(int count, int numThreads, const std::function<void(int worker, int i)>& work,
-                 int itemsPerBlock = kItemsPerBlock);
+@param work   may take Python's lock */
+void runParallel(int count, int numThreads, const std::function<void(int worker, int i)>& work);
 
-/** How many workers runParallel() will have. */
-int countWorkers(int count, int numThreads, int itemsPerBlock = kItemsPerBlock);
-
-/** Throws where the work of this thread shall end: for calls of Python functions in the midst of an item. */
+/** Throws where Ctrl-C shall end the work of this thread: for calls of Python functions in the midst of an item. */
 void throwIfStopped();
 
 }  // namespace tautline::python

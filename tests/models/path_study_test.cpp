@@ -10,6 +10,7 @@
 #include "tautline/models/coordinate_coupling.h"
 #include "tautline/models/crossed_coordinates.h"
 #include "tautline/models/model_system.h"
+#include "tautline/models/parallel_study.h"
 #include "tautline/models/path_study.h"
 
 namespace tautline::models::testing {
@@ -133,7 +134,7 @@ TEST_P(DataWalkedModels, AnswersAreThoseOfColdSolves) {
         if (findCoordinate(model, name)) coordinates.push_back(name);
     ASSERT_EQ(coordinates.empty(), GetParam().coordinates.empty());
     PathStudy walked(model), alone(model);
-    constexpr int kNumFrames = 2 * PathStudy::kPosesPerBlock, kColdEvery = 7;
+    constexpr int kNumFrames = 2 * kPosesPerBlock, kColdEvery = 7;
     for (int frame = 0; frame < kNumFrames; ++frame) {
         ModelPose pose;
         for (std::size_t k = 0; k < coordinates.size(); ++k)
@@ -153,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(, DataWalkedModels, ::testing::ValuesIn(kWalkedModels),
 
 /** Whoever solves a block, and whatever he solved before: to the last digit. */
 TEST(PathStudy, AnswersDependOnTheirBlockAlone) {
-    constexpr int kBlock = PathStudy::kPosesPerBlock;
+    constexpr int kBlock = kPosesPerBlock;
     const ModelDescription elbow = readElbow();
     const auto makePose = [](int i) {
         ModelPose pose;
@@ -172,6 +173,53 @@ TEST(PathStudy, AnswersDependOnTheirBlockAlone) {
                 EXPECT_EQ(answer.paths[p].effectiveArms, answers[static_cast<std::size_t>(i)].paths[p].effectiveArms);
             }
         }
+}
+
+/** Lengths and moment arms of a study of the whole row, to the last digit. */
+TEST(ParallelStudy, AnswersAreThoseOfOneStudyForAllNumbersOfThreads) {
+    const ModelDescription elbow = readElbow();
+    constexpr int kCount = 4 * kPosesPerBlock + 5;
+    const auto makePose = [](int i) {
+        ModelPose pose;
+        pose.values["elbow_flexion"] = 1 + std::sin(0.03 * i);
+        pose.values["shoulder_flexion"] = 0.5 * std::cos(0.02 * i);
+        return pose;
+    };
+    PathStudy one(elbow);
+    std::vector<PoseAnswer> expected;
+    for (int i = 0; i < kCount; ++i) expected.push_back(one.solve(makePose(i), i));
+    ParallelStudy study(elbow);
+    for (const int numThreads : {1, 2, 3, 7}) {
+        std::vector<PoseAnswer> answers;
+        ASSERT_TRUE(study.solveMany(kCount, makePose, answers, {numThreads, {}}));
+        ASSERT_EQ(answers.size(), expected.size());
+        for (std::size_t i = 0; i < answers.size(); ++i)
+            for (std::size_t p = 0; p < answers[i].paths.size(); ++p) {
+                EXPECT_EQ(answers[i].paths[p].length, expected[i].paths[p].length) << i;
+                EXPECT_EQ(answers[i].paths[p].effectiveArms, expected[i].paths[p].effectiveArms) << i;
+            }
+    }
+}
+
+TEST(ParallelStudy, RefusesThePoseThatComesFirst) {
+    ParallelStudy study(readElbow());
+    const auto makePose = [](int i) {
+        ModelPose pose;
+        if (i >= 70) pose.values["elbow_flexion"] = std::numeric_limits<double>::infinity();
+        if (i == 69) pose.values["no_such"] = 0;
+        return pose;
+    };
+    std::vector<PoseAnswer> answers;
+    for (const int numThreads : {1, 2, 7}) {
+        try {
+            study.solveMany(500, makePose, answers, {numThreads, {}});
+            ADD_FAILURE() << "no error";
+        } catch (const ModelError& error) {
+            EXPECT_NE(std::string(error.what()).find("no_such"), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_TRUE(study.solveMany(0, makePose, answers));
+    EXPECT_TRUE(answers.empty());
 }
 
 TEST(PathStudy, RefusesAPoseWhoseBlockWasNotSolvedUpToIt) {

@@ -201,27 +201,26 @@ const PathSolverOptions& PathTracker::getOptions() const {
     return m_workspace->solver.getOptions();
 }
 
-void PathTracker::solve(const PathProblem& problem, TrackedPath& path) {
-    if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
-    const bool isRoomKept = !problem.hasObstacles() && path.solution.contacts.size() == path.pose.X_GE.size();
-    if (!isRoomKept) path.solution.contacts.clear();
-    m_workspace->solver.solve(problem, path.pose, path.solution);
+void PathTracker::solve(const PathProblem& problem, const PathPose& pose, PathSolution& path) {
+    if (!pose.isFinite()) return makeEmptyPath(problem, path);
+    const bool isRoomKept = !problem.hasObstacles() && path.contacts.size() == pose.X_GE.size();
+    if (!isRoomKept) path.contacts.clear();
+    m_workspace->solver.solve(problem, pose, path);
 }
 
-void PathTracker::solveFrom(const PathProblem& problem, const TrackedPath& start, TrackedPath& path) {
-    if (!path.pose.isFinite()) return makeEmptyPath(problem, path.solution);
+void PathTracker::solveFrom(const PathProblem& problem, const PathSolution& start, const PathPose& pose,
+                            PathSolution& path) {
+    if (!pose.isFinite()) return makeEmptyPath(problem, path);
     const auto isMinimum = [](const PathSolution& solution) {
         return solution.status == PathStatus::Solved || solution.status == PathStatus::EndInside;
     };
-    if (problem.hasObstacles() && !start.solution.isEmpty() && isMinimum(start.solution)) {
-        path.solution = start.solution;
-        m_workspace->continuer.solve(problem, path.pose, path.solution);
-        const bool isAsAsked = path.solution.deviation.kind == RouteDeviation::Kind::None;
-        if (isMinimum(path.solution) && isAsAsked &&
-            isOnDefaultCourse({problem, path.pose}, path.solution, m_workspace->asked))
-            return;
+    if (problem.hasObstacles() && !start.isEmpty() && isMinimum(start)) {
+        path = start;
+        m_workspace->continuer.solve(problem, pose, path);
+        const bool isAsAsked = path.deviation.kind == RouteDeviation::Kind::None;
+        if (isMinimum(path) && isAsAsked && isOnDefaultCourse({problem, pose}, path, m_workspace->asked)) return;
     }
-    solve(problem, path);
+    solve(problem, pose, path);
 }
 
 void PathTracker::trackFreely(const PathProblem& problem, const TrackedPath& start, const PathMotion& motion,

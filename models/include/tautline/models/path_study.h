@@ -8,6 +8,7 @@
 
 #include "tautline/models/model_description.h"
 #include "tautline/models/wrap_binding.h"
+#include "tautline/paths/parallel_blocks.h"
 #include "tautline/paths/path_problem.h"
 #include "tautline/paths/path_solution.h"
 
@@ -82,15 +83,13 @@ such as those of a measured motion. Forces play no part.
 In each pose coordinates are set as given, clipped to no range, couplers give their dependent coordinates values and
 speeds, and other constraints are met by the least change of coordinates.
 
-Poses of a row, such as the frames of a motion, are solved in blocks of kPosesPerBlock: the first pose of each by
-itself, the others continued from the one before, which saves the search. A continued path is kept only where it runs as
-one that is found anew has to (ContactMode::Free), so that it is the same path; its last digits depend on where it was
-continued from. So an answer depends on no more than the poses of its block, whoever solves the blocks, in whichever
-order. */
+Poses of a row, such as the frames of a motion, are solved in blocks of kPosesPerBlock, as solveMany() of the core does:
+the first pose of each by itself, the others continued from the one before, which saves the search. A continued path is
+kept only where it runs as one that is found anew has to (ContactMode::Free), so that it is the same path; its last
+digits depend on where it was continued from. So an answer depends on no more than the poses of its block, whoever
+solves the blocks, in whichever order. */
 class PathStudy {
 public:
-    static constexpr int kPosesPerBlock = 64;
-
     /** @param isWanted   by name of the path; the others are not solved
     @throws ModelError as ModelSystem does */
     explicit PathStudy(const ModelDescription& description,

@@ -64,12 +64,16 @@ public:
     const PathSolverOptions& getOptions() const;
 
     /** Solves with contacts found anew. @param path   in: pose; out: solution, empty in a pose that is not finite */
-    void solve(const PathProblem& problem, TrackedPath& path);
+    void solve(const PathProblem& problem, TrackedPath& path) { solve(problem, path.pose, path.solution); }
+    void solve(const PathProblem& problem, const PathPose& pose, PathSolution& path);
 
     /** As solve(): the pose alone decides, but what is known of a pose nearby saves the search. The path is continued
     from `start`, and kept if it is a minimum that runs as one found anew would have to: as the hints ask, and past
     obstacles without a hint on the side of the straight line. Else it is found anew. */
-    void solveFrom(const PathProblem& problem, const TrackedPath& start, TrackedPath& path);
+    void solveFrom(const PathProblem& problem, const TrackedPath& start, TrackedPath& path) {
+        solveFrom(problem, start.solution, path.pose, path.solution);
+    }
+    void solveFrom(const PathProblem& problem, const PathSolution& start, const PathPose& pose, PathSolution& path);
 
     /** Continues `start` with its contacts decided anew, so that the path keeps its course: for studies without
     events. Parameters as for track(). */
