@@ -26,11 +26,12 @@ double FunctionBasedPath::calcLength(const SimTK::State& state) const {
 
 std::vector<double> FunctionBasedPath::calcMomentArms(const SimTK::State& state) const {
     const std::vector<double> values = getValues(state);
-    std::vector<double> arms;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const bool isGiven = !m_functions.momentArms.empty();
-        arms.push_back(isGiven ? m_functions.momentArms[i].calcValue(values.data())
-                               : -m_functions.length.calcDerivative({static_cast<int>(i)}, values.data()));
+    std::vector<double> arms(values.size());
+    if (m_functions.momentArms.empty()) {
+        m_functions.length.calcValueAndGradient(values.data(), arms.data());
+        for (double& arm : arms) arm = -arm;
+    } else {
+        for (std::size_t i = 0; i < arms.size(); ++i) arms[i] = m_functions.momentArms[i].calcValue(values.data());
     }
     return arms;
 }
