@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What cables cost in Simbody: a swinging chain with many of them, one cable over many cylinders beside the core
-alone, and systems of the kind of Simbody's examples with its own cables and with ours. README.md says how to read the
-table. */
+/** What cables cost in Simbody: a swinging chain with many of them, and systems of the kind of Simbody's examples with
+its own cables and with ours. README.md says how to read the table. */
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
@@ -9,10 +8,7 @@ table. */
 #include <sstream>
 
 #include "simbody_adapter/peer_scenes.h"
-#include "support/weave_scene.h"
-#include "tautline/paths/path_solver.h"
 #include "tautline/simbody/cable.h"
-#include "tautline/simbody/conversions.h"
 #include "tautline/surfaces/cylinder.h"
 
 namespace {
@@ -119,89 +115,6 @@ void printChain(int numCables, Real duration) {
     }
 }
 
-/** The weave with each cylinder on a body of its own. */
-struct SimbodyWeave {
-    SimbodyWeave(const tautline::testing::WeaveScene& scene, int count, bool hasCable) {
-        std::vector<MobilizedBody> bodies;
-        const SimTK::Body::Rigid body(SimTK::MassProperties(1, SimTK::Vec3(0), SimTK::Inertia(0.1)));
-        for (int i = 0; i < count; ++i)
-            bodies.push_back(MobilizedBody::Free(matter.Ground(), Transform(), body, Transform()));
-        if (hasCable) {
-            cable = Cable(cables, matter.Ground(), SimTK::Vec3(-1, 0, 0), matter.Ground(), SimTK::Vec3(count, 0, 0));
-            for (int i = 0; i < count; ++i)
-                cable.addObstacle(bodies[i], Transform(), scene.getProblem().getElement(i + 1).surface,
-                                  SimTK::Vec3(0, i % 2 == 0 ? 0.4 : -0.4, 0));
-        }
-        state = system.realizeTopology();
-        matter.setUseEulerAngles(state, true);
-        system.realizeModel(state);
-    }
-
-    /** q of all bodies for a pose of the path. */
-    SimTK::Vector calcQ(const PathPose& pose) {
-        State at = state;
-        for (SimTK::MobilizedBodyIndex b(1); b < matter.getNumBodies(); ++b)
-            matter.getMobilizedBody(b).setQToFitTransform(at, toTransform(pose.X_GE[b]));
-        return at.getQ();
-    }
-
-    SimTK::MultibodySystem system;
-    SimTK::SimbodyMatterSubsystem matter{system};
-    SimTK::GeneralForceSubsystem forces{system};
-    CableSubsystem cables{system};
-    Cable cable;
-    State state;
-};
-
-/** Least of several rounds: what the machine's other users add only adds. */
-template <class Step>
-double measureLeast(int numSteps, Step step) {
-    constexpr int kRounds = 7;
-    double least = SimTK::Infinity;
-    for (int round = 0; round < kRounds; ++round) {
-        const double begin = getCpuTime();
-        for (int k = 0; k < numSteps; ++k) step(k);
-        least = std::min(least, getCpuTime() - begin);
-    }
-    return 1e6 * least / numSteps;
-}
-
-void printWeave(int count) {
-    using tautline::testing::WeaveScene;
-    const WeaveScene scene(WeaveScene::Kind::Cylinders, count);
-    SimbodyWeave with(scene, count, true), without(scene, count, false);
-    constexpr int kSteps = 400;
-    std::vector<PathPose> poses(kSteps);
-    std::vector<SimTK::Vector> q(kSteps);
-    // There and back, so that the first step of a round starts next to the last one of that before.
-    for (int k = 0; k < kSteps; ++k) {
-        scene.calcPose(WeaveScene::kTimeStep * std::min(k, kSteps - 1 - k), poses[k]);
-        q[k] = with.calcQ(poses[k]);
-    }
-    PathSolver solver;
-    PathSolution path = scene.makeGuess();
-    const double core = measureLeast(kSteps, [&](int k) { solver.solve(scene.getProblem(), poses[k], path); });
-    const auto move = [&](SimbodyWeave& weave, int k) {
-        weave.state.updQ() = q[k];
-        weave.system.realize(weave.state, SimTK::Stage::Position);
-    };
-    const double bodies = measureLeast(kSteps, [&](int k) { move(without, k); });
-    for (const bool hasEvents : {true, false}) {
-        with.cable.continueFrom(with.state, scene.makeGuess());
-        if (!hasEvents) with.cable.setContactMode(with.state, ContactMode::Tracked);
-        double sum = 0;
-        const double cable = measureLeast(kSteps, [&](int k) {
-            move(with, k);
-            sum += with.cable.getLength(with.state);
-            with.state.autoUpdateDiscreteVariables();  // as an integrator does when it accepts a step
-        });
-        std::printf(
-            "%3d cylinders, %-7s: core %.2f us, bodies %.2f us, cable through realize(Position) %.2f us, %.2f of "
-            "both\n",
-            count, hasEvents ? "events" : "tracked", core, bodies, cable, cable / (core + bodies));
-    }
-}
-
 /** Ten seconds at the accuracy of Simbody's examples. */
 template <class Scene>
 double measureExample() {
@@ -241,7 +154,6 @@ int main(int argc, char** argv) {
     app.add_option("--duration", duration, "of the chain's study [s]")->check(CLI::PositiveNumber);
     CLI11_PARSE(app, argc, argv);
     printChain(numCables, duration);
-    for (const int count : {5, 50}) printWeave(count);
     printExamples();
     return 0;
 }
