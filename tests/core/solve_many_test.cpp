@@ -5,9 +5,11 @@ poses that cannot be solved. */
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <set>
 #include <thread>
 
@@ -130,7 +132,7 @@ TEST(SolveMany, AnswersAreThoseOfColdSolves) {
         EXPECT_NEAR(out[i].length, cold.length, 1e-12) << i;
         for (const int e : {1, 2}) ++(out[i].contacts[static_cast<std::size_t>(e)].isTouched ? touched : passed);
         continued += !out[i].wasCold;
-        if (i % kPosesPerBlock == 0) EXPECT_TRUE(out[i].wasCold) << i;
+        EXPECT_TRUE(out[i].wasCold || i % kPosesPerBlock != 0) << i;
     }
     EXPECT_GT(touched, 50);
     EXPECT_GT(passed, 50);
@@ -170,8 +172,10 @@ TEST(SolveMany, APoseThatIsNotFiniteStandsAlone) {
     }
     EXPECT_TRUE(out[1].wasCold);
     EXPECT_TRUE(out[6].wasCold);
-    for (std::size_t i = 0; i < out.size(); ++i)
-        if (std::isfinite(out[i].length)) EXPECT_NEAR(out[i].length, whole[i].length, 1e-12) << i;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (std::find(std::begin(broken), std::end(broken), i) != std::end(broken)) continue;
+        EXPECT_NEAR(out[i].length, whole[i].length, 1e-12) << i;
+    }
     expectSameForAllThreads(scene.problem, scene.poses);
 }
 
@@ -232,7 +236,7 @@ TEST(RunBlocks, WorkOnEachItemOnceAndOnBlocksInOrder) {
         for (const std::vector<int>& ofOne : items)
             for (std::size_t k = 0; k < ofOne.size(); ++k) {
                 EXPECT_TRUE(all.insert(ofOne[k]).second);
-                if (ofOne[k] % kBlock != 0) EXPECT_EQ(ofOne[k - 1], ofOne[k] - 1);
+                EXPECT_TRUE(ofOne[k] % kBlock == 0 || (k > 0 && ofOne[k - 1] == ofOne[k] - 1));
             }
         EXPECT_EQ(all.size(), static_cast<std::size_t>(kItems));
     }
