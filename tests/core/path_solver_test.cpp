@@ -170,6 +170,20 @@ TEST(PathSolver, WarmSolveDoesNotAllocate) {
         EXPECT_GT(path.iterations, 0);
         EXPECT_FALSE(path.wasCold);
     }
+    PathScene ring;  // that is touched in two places
+    ring.point(Vec3(-0.3, 0.02, 0.01))
+        .obstacle(std::make_shared<Torus>(0.1, 0.03), Pose())
+        .point(Vec3(0.3, 0.01, 0.01));
+    PathSolver solver;
+    PathSolution path;
+    for (int i = 0; i < 6; ++i) {
+        ring.pose.X_GE[0].p.y() += 1e-3;
+        const long before = allocationCount;
+        solver.solve(ring.problem, ring.pose, path);
+        solver.solveKeepingContacts(ring.problem, ring.pose, path);
+        EXPECT_TRUE(i < 3 || allocationCount == before) << i;
+        EXPECT_EQ(path.contacts[1].getNumArcs(), 2);
+    }
     const long before = allocationCount;
     const std::vector<int> numbers(static_cast<std::size_t>(before % 7 + 100));  // of a size unknown when compiled
     EXPECT_GT(allocationCount, before) << numbers.data();                        // the counter counts
