@@ -309,7 +309,7 @@ void rememberPath(const PathSolution& path, std::vector<PassedObstacle>& previou
         passed.arc = contact.start;
         passed.furtherArcs.clear();
         for (const ContactArc& arc : contact.furtherArcs) passed.furtherArcs.push_back(arc.start);
-        passed.passages = contact.passage.count, passed.through_S = contact.passage.through_S;
+        passed.passage = contact.passage;
         passed.keptC = contact.clearance.keptC, passed.keptN = contact.clearance.keptN;
     }
 }
@@ -325,14 +325,33 @@ Route calcPreviousRoute(const PosedProblem& scene, const std::vector<PassedObsta
             points = {Vec3::Zero()};
         else if (obstacle.isTouched)
             layAlongArcs(scene.getSurface(e), obstacle, points);
-        else if (obstacle.passages != 0)
-            points = {obstacle.through_S};
+        else if (obstacle.passage.count != 0)
+            points = {obstacle.passage.through_S};
         for (Vec3& p : points) p = scene.getPose(e) * p;
         points.erase(std::remove_if(points.begin(), points.end(), [](const Vec3& p) { return !p.allFinite(); }),
                      points.end());
     }
     guideOverSunken(scene, previous, route.waypoints);
     return route;
+}
+
+bool rethread(const PosedProblem& scene, const std::vector<PassedObstacle>& previous, Route& route) {
+    bool isChanged = false;
+    scene.forEachObstacle([&](int e) {
+        const HolePassage& before = previous[e].passage;
+        if (!scene.problem.getElement(e).hasHole || !before.isKnown()) return;
+        if (!scene.isPoint(before.from) || !scene.isPoint(before.to)) return;
+        const Pose& X_GE = scene.getPose(e);
+        const Chord chord{X_GE.shiftBack(scene.getPose(before.from).p), X_GE.shiftBack(scene.getPose(before.to).p)};
+        const Hole hole = *scene.getSurface(e).getHole();
+        const int count =
+            before.count - hole.countCrossings(before.A_S, chord.A_S) - hole.countCrossings(chord.B_S, before.B_S);
+        route.waypoints[e].clear();
+        guide(scene.problem.getElement(e), ThreadHole{count}, chord, route.waypoints[e]);
+        for (Vec3& p : route.waypoints[e]) p = X_GE * p;
+        isChanged = true;
+    });
+    return isChanged;
 }
 
 Route calcReleasedRoute(const PosedProblem& scene) {

@@ -34,8 +34,7 @@ struct PassedObstacle {
     bool isTouched = false, isSwitchedOff = false;
     GeodesicStart arc;                       ///< in S; the first
     std::vector<GeodesicStart> furtherArcs;  ///< in S
-    int passages = 0;                        ///< through its hole
-    Vec3 through_S = Vec3::Zero();           ///< where it last went through
+    HolePassage passage;                     ///< through its hole
     SurfacePoint keptC;                      ///< where a lifted one was watched last, with its normal; in S
     Vec3 keptN;
 };
@@ -45,6 +44,11 @@ void rememberPath(const PathSolution& path, std::vector<PassedObstacle>& previou
 
 /** Along a previous path: its arcs, and where it went through the holes of obstacles that it did not touch. */
 Route calcPreviousRoute(const PosedProblem& scene, const std::vector<PassedObstacle>& previous);
+
+/** Lays such a route anew through rings that lie between two points of it: as often as the previous path went, with the
+ways of those points. Where a string has to go round a ring, its old arc does not lead there.
+@return false if there are none, and the route is as it was */
+bool rethread(const PosedProblem& scene, const std::vector<PassedObstacle>& previous, Route& route);
 
 /** Through the fixed points alone, and through rings or past them. */
 Route calcReleasedRoute(const PosedProblem& scene);

@@ -201,7 +201,10 @@ void PathSearch::continuePrevious(PathSolution& path) {
 
 void PathSearch::layAlongPrevious(PathSolution& path) {
     m_band.beginSearch();
-    solveAlongBand(calcPreviousRoute(*m_scene, m_previous), false, path);
+    Route route = calcPreviousRoute(*m_scene, m_previous);
+    solveAlongBand(route, false, path);
+    if (m_bestRank != Rank::Minimum && m_scene->problem.hasHoles() && rethread(*m_scene, m_previous, route))
+        solveAlongBand(route, false, path);
 }
 
 void PathSearch::insertContacts(PathSolution& path) {
