@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <vector>
+#include <type_traits>
 
 #include "paths/posed_problem.h"
 
@@ -26,14 +26,6 @@ bool joinArcs(const PosedProblem& scene, PathSolution& path);
 /** Joins the two neighboring arcs of one obstacle that are nearest to each other, for a contact set that has no path.
 @param path   with segments. @return false if no obstacle has several */
 bool joinNearestArcs(const PosedProblem& scene, PathSolution& path);
-
-/** The arcs for Newton's method of a string from A to B, both in S, that touches a surface along the segment between:
-one over the place where the clearance was measured; where the surface is hollow there, those of the hull of its section
-by the plane through the segment and the normal there.
-@param further   the arcs after the first, in path order
-@return the first */
-GeodesicStart calcTouchingArcs(const Surface& surface, const Vec3& A_S, const Vec3& B_S, const LineClearance& clearance,
-                               std::vector<GeodesicStart>& further);
 
 /** One arc or more where a segment passes below the surface that it has left, or comes to. */
 void touchAgain(const PosedProblem& scene, int element, int segment, PathSolution& path);

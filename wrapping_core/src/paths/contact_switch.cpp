@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "paths/arc_changes.h"
+#include "paths/touching_arcs.h"
 #include "tautline/paths/contact_witness.h"
 
 namespace tautline {
