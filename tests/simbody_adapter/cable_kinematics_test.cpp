@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <thread>
+#include <type_traits>
+#include <utility>
 
 #include "adapter_scenes.h"
 #include "tautline/surfaces/bspline_patch.h"
@@ -314,6 +316,35 @@ TEST(CableKinematics, ForcesOfElementsAddUpToThoseOfBodiesAndTurnWithTheirPoint)
         EXPECT_EQ(aboutBody[1], aboutElement[1]);
     }
     for (int b = 0; b < sum.size(); ++b) EXPECT_LT((sum[b] - expected[b]).norm(), 1e-14);
+}
+
+// What is asked of a Cable in a study is told in Simbody's own types.
+TEST(CableKinematics, TangentsAreUnitVectorsOfSimbody) {
+    static_assert(std::is_same_v<decltype(std::declval<Cable>().calcOriginTangent(State())), SimTK::UnitVec3>);
+    static_assert(std::is_same_v<decltype(std::declval<Cable>().calcInsertionTangent(State())), SimTK::UnitVec3>);
+    MechanismScene scene;
+    const State state = scene.makeState(1);
+    scene.system.realize(state, Stage::Position);
+    const std::vector<SimTK::Vec3> points = scene.cable.calcDrawingPoints(state);
+    const std::size_t n = points.size();
+    const SimTK::UnitVec3 out(points[1] - points[0]), in(points[n - 1] - points[n - 2]);
+    EXPECT_LT((SimTK::Vec3(scene.cable.calcOriginTangent(state)) - SimTK::Vec3(out)).norm(), 1e-12);
+    EXPECT_LT((SimTK::Vec3(scene.cable.calcInsertionTangent(state)) - SimTK::Vec3(in)).norm(), 1e-12);
+    // At both ends of an arc the path goes on in the direction of its segments.
+    SimTK::UnitVec3 atP, atQ;
+    SimTK::Vec3 P, Q;
+    for (const CableElementIndex obstacle : {scene.sphere, scene.cylinder, scene.ellipsoid}) {
+        ASSERT_TRUE(scene.cable.getContactTangents(state, obstacle, atP, atQ));
+        ASSERT_TRUE(scene.cable.getContactPoints(state, obstacle, P, Q));
+        for (std::size_t k = 1; k + 1 < n; ++k) {
+            if ((points[k] - P).norm() < 1e-12) {
+                EXPECT_LT(((points[k] - points[k - 1]).normalize() % atP).norm(), 1e-9);
+            }
+            if ((points[k] - Q).norm() < 1e-12) {
+                EXPECT_LT(((points[k + 1] - points[k]).normalize() % atQ).norm(), 1e-9);
+            }
+        }
+    }
 }
 
 }  // namespace
