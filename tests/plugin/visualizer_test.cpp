@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The window of Simbody's visualizer, or a clear line where there is none. */
+#include <unistd.h>
+
 #include "program_support.h"
 
 namespace tautline::testing {
@@ -37,18 +39,24 @@ TEST(Visualizer, NeedsADisplay) {
     EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
-/** A display without a screen, as long as it lives. */
+/** A display without a screen, as long as it lives: one of its own for each process, since tests run side by side. */
 class Display {
 public:
-    Display() { runProgram("Xvfb :97 -screen 0 640x480x24 >/dev/null 2>&1 & echo $!; sleep 1", m_process); }
+    Display() : m_name(":" + std::to_string(100 + getpid() % 900)) {
+        const std::string socket = "/tmp/.X11-unix/X" + m_name.substr(1);
+        runProgram("Xvfb " + m_name + " -screen 0 640x480x24 >/dev/null 2>&1 & echo $!; for i in $(seq 100); do [ -e " +
+                       socket + " ] && break; sleep 0.1; done",
+                   m_process);
+    }
     Display(const Display&) = delete;
     ~Display() {
         std::string ignored;
         runProgram("kill " + std::to_string(std::stoi(m_process)), ignored);
     }
+    std::string getVariable() const { return "DISPLAY=" + m_name; }
 
 private:
-    std::string m_process;
+    std::string m_name, m_process;
 };
 
 class VisualizerWindow : public ::testing::Test {
@@ -63,7 +71,7 @@ TEST_F(VisualizerWindow, FollowsARunWithoutChangingIt) {
     const Display display;
     const std::filesystem::path plain = makeFolder("not_visualized"), shown = makeFolder("visualized");
     runTautline("run " TAUTLINE_SOURCE_DIR "/models/elbow.osim --duration 0.2 --out " + plain.string());
-    const Outcome outcome = runWith("DISPLAY=:97", shown);
+    const Outcome outcome = runWith(display.getVariable(), shown);
     if (outcome.has("there is no simbody-visualizer")) GTEST_SKIP() << outcome.text;
     EXPECT_EQ(outcome.exitCode, 0) << outcome.text;
     EXPECT_EQ(readAll(shown / "states.sto"), readAll(plain / "states.sto"));
@@ -74,8 +82,9 @@ TEST_F(VisualizerWindow, MayBeClosedBeforeTheRunEnds) {
     const Display display;
     const std::filesystem::path folder = makeFolder("closed"), said = folder.string() + ".txt";
     std::string output;
-    const int exitCode = runProgram("DISPLAY=:97 " TAUTLINE_PROGRAM " run " TAUTLINE_SOURCE_DIR
-                                    "/models/elbow.osim --visualize --duration 6 --out " +
+    const int exitCode = runProgram(display.getVariable() +
+                                        " " TAUTLINE_PROGRAM " run " TAUTLINE_SOURCE_DIR
+                                        "/models/elbow.osim --visualize --duration 6 --out " +
                                         folder.string() + " >" + said.string() +
                                         " 2>&1 & run=$!; for i in $(seq 60); do sleep 0.25; window=$(pgrep -P $run "
                                         "simbody) && break; kill -0 $run || break; done; "
