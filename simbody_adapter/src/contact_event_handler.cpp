@@ -57,21 +57,17 @@ void SettlingEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) 
     m_cables.settle(state);
 }
 
-ElementEventHandler::ElementEventHandler(const CableImpl& cable, CableElementIndex element)
-    : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_element(element) {
-    getTriggerInfo().setTriggerOnRisingSignTransition(false).setRequiredLocalizationTimeWindow(kNarrowest);
-}
-
 ConditionEventHandler::ConditionEventHandler(const CableImpl& cable, CableElementIndex point)
-    : ElementEventHandler(cable, point) {
-    getTriggerInfo().setTriggerOnRisingSignTransition(true);  // both ways
+    : TriggeredEventHandler(SimTK::Stage::Position), m_cable(cable), m_point(point) {
+    // Both ways.
+    getTriggerInfo().setTriggerOnRisingSignTransition(true).setRequiredLocalizationTimeWindow(kNarrowest);
 }
 
 /** A jump from -1 to 1: the event finder halves its interval. The pose of the path knows what the condition says. */
 SimTK::Real ConditionEventHandler::getValue(const SimTK::State& state) const {
     if (m_cable.isDisabled(state)) return 1;
     m_cable.getPath(state, "cable event handler");
-    return m_cable.getPose(state).hasElement(m_element) ? 1 : -1;
+    return m_cable.getPose(state).hasElement(m_point) ? 1 : -1;
 }
 
 void ConditionEventHandler::handleEvent(SimTK::State& state, SimTK::Real, bool&) const {

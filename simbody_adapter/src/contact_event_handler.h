@@ -61,23 +61,17 @@ private:
     const CableSubsystemImpl& m_cables;
 };
 
-/** Watches one element. */
-class ElementEventHandler : public SimTK::TriggeredEventHandler {
-public:
-    ElementEventHandler(const CableImpl& cable, CableElementIndex element);
-
-protected:
-    const CableImpl& m_cable;
-    CableElementIndex m_element;
-};
-
 /** Stops a step where the condition of a point changes, since the length jumps there, and lets the contacts that
 this changes settle. */
-class ConditionEventHandler : public ElementEventHandler {
+class ConditionEventHandler : public SimTK::TriggeredEventHandler {
 public:
     ConditionEventHandler(const CableImpl& cable, CableElementIndex point);
     SimTK::Real getValue(const SimTK::State& state) const override;
     void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
+
+private:
+    const CableImpl& m_cable;
+    CableElementIndex m_point;
 };
 
 }  // namespace tautline

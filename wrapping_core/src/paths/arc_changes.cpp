@@ -77,9 +77,7 @@ Bridge findBridge(const SampledArc& arc) {
 }
 
 bool hasHollow(const Surface& surface, const ContactArc& arc) {
-    if (!(arc.start.length > 0) || !arc.geodesic.converged) return false;
-    const double tolerance = kVerificationRounding / surface.getSize();
-    return calcLargestNormalCurvature(surface, arc.start, arc.geodesic) > tolerance;
+    return arc.start.length > 0 && arc.geodesic.converged && !pressesEverywhere(surface, arc);
 }
 
 /** Whether the segment passes clear of the surface. */
@@ -153,6 +151,13 @@ void insertArc(const GeodesicStart& start, int at, ObstacleContact& contact) {
 }
 
 }  // namespace
+
+bool pressesEverywhere(const Surface& surface, const ContactArc& arc) {
+    const double tolerance = kVerificationRounding / surface.getSize();
+    if (arc.geodesic.P.kappaN > tolerance || arc.geodesic.Q.kappaN > tolerance) return false;
+    if (surface.isConvex() || !(arc.start.length > 0)) return true;
+    return !(calcLargestNormalCurvature(surface, arc.start, arc.geodesic) > tolerance);
+}
 
 bool splitArcs(const PosedProblem& scene, PathSolution& path) {
     bool isSplit = false;

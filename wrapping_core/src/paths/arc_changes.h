@@ -15,6 +15,9 @@ of the bridge are singular: with p the pressure's excess, a bridge is as wide as
 and what it saves of the length as p^3.5. So a split is laid where the hull of the sampled arc leaves the surface, from
 where Newton's method leads on; and between split and join the length has three continuous derivatives. */
 
+/** True if the arc presses on its surface all along: kappa_n <= 0. */
+bool pressesEverywhere(const Surface& surface, const ContactArc& arc);
+
 /** Splits arcs over the hollows that their pressure shows, the first of each obstacle. @param path   solved
 @return whether there was one */
 bool splitArcs(const PosedProblem& scene, PathSolution& path);

@@ -141,10 +141,8 @@ std::string describe(const StringFault& fault, const PathProblem& problem) {
         return "the string still slides, far from where it would come to rest";
     if (fault.kind == StringFault::Kind::Sliding)
         return "the string still slides over " + quoteName(problem, fault.element) + ", next to a neutral course";
-    if (fault.kind == StringFault::Kind::OutOfOrder)
-        return "the string would meet " + quoteName(problem, fault.other) + " before " +
-               quoteName(problem, fault.element) + ", against the order of the path";
-    return "the string does not come to rest";
+    return "the string would meet " + quoteName(problem, fault.other) + " before " + quoteName(problem, fault.element) +
+           ", against the order of the path";
 }
 
 /** Why the string that was laid anew came to no better path, ": " before it; empty if that is not known. */

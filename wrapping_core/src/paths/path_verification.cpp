@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/arc_changes.h"
 #include "surfaces/arc_walker.h"
 #include "tautline/paths/contact_switch.h"
 #include "tautline/paths/path_stability.h"
@@ -14,14 +15,6 @@ namespace tautline {
 namespace {
 
 using Condition = PathVerification::Condition;
-
-/** True if the arc presses on its surface all along: kappa_n <= 0. */
-bool pressesEverywhere(const Surface& surface, const ContactArc& contact) {
-    const double tolerance = kVerificationRounding / surface.getSize();
-    if (contact.geodesic.P.kappaN > tolerance || contact.geodesic.Q.kappaN > tolerance) return false;
-    if (surface.isConvex() || !(contact.start.length > 0)) return true;
-    return !(calcLargestNormalCurvature(surface, contact.start, contact.geodesic) > tolerance);
-}
 
 /** True if a straight segment that leaves the surface at one end dips below it elsewhere. */
 bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSegment& line) {

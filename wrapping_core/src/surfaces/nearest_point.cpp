@@ -49,8 +49,8 @@ ImplicitValue calcSignedDistance(const Surface& surface, const Vec3& p) {
     const double d = frame.N.dot(p - C.p);
     Eigen::Matrix2d W;
     W << -frame.kappaN, frame.tauG, frame.tauG, -frame.kappaB;
-    const double mean = 0.5 * W.trace(), largest = mean + std::sqrt(std::max(0.0, mean * mean - W.determinant()));
-    const double least = mean - std::sqrt(std::max(0.0, mean * mean - W.determinant()));
+    const double mean = 0.5 * W.trace(), apart = std::sqrt(std::max(0.0, mean * mean - W.determinant()));
+    const double largest = mean + apart, least = mean - apart;  // principal curvatures
     const double depth = largest > 0 ? std::max(d, -kDeepest / largest) : d;
     const double reach = least < 0 ? std::min(depth, -kDeepest / least) : depth;
     const Eigen::Matrix2d H = W * (Eigen::Matrix2d::Identity() + reach * W).inverse();
