@@ -166,12 +166,13 @@ void solveGrooves(unsigned seed, Report& report) {
     SeededRandom random(seed);
     PathSolution cold;
     add("cold",
-        GrooveScene(Vec3(random.uniform(0, 0.03), 0.2, random.uniform(-2e-3, 2e-3)),
-                    Vec3(random.uniform(-0.1, 0.03), -0.2, random.uniform(-2e-3, 2e-3))),
+        GrooveScene(Vector3(random.uniform(0, 0.03), 0.2, random.uniform(-2e-3, 2e-3)),
+                    Vector3(random.uniform(-0.1, 0.03), -0.2, random.uniform(-2e-3, 2e-3))),
         cold);
     if (seed % 100 != 1) return;
     PathSolution swept;
-    for (int i = 0; i <= 200; ++i) add("swept", GrooveScene(Vec3(0.03, 0.2, 0), Vec3(0.03 - 5e-4 * i, -0.2, 0)), swept);
+    for (int i = 0; i <= 200; ++i)
+        add("swept", GrooveScene(Vector3(0.03, 0.2, 0), Vector3(0.03 - 5e-4 * i, -0.2, 0)), swept);
 }
 
 /** Long chains without hints, and with the sides of what was found so. */
@@ -227,7 +228,7 @@ void shift(unsigned seed, Report& report) {
     if (expected.status != PathStatus::Solved) return;
     for (const double distance : {1e2, 1e4, 1e5}) {
         PosedPath far = near;
-        for (Pose& X_GE : far.pose.X_GE) X_GE.p += distance * Vec3(0.6, -0.64, 0.48);
+        for (Pose& X_GE : far.pose.X_GE) X_GE.p += distance * Vector3(0.6, -0.64, 0.48);
         PathSolver solver;
         PathSolution path;
         TimedSolve solve;

@@ -45,7 +45,7 @@ std::string toText(double value) {
     return text.str();
 }
 
-json toJson(const Vec3& v) {
+json toJson(const Vector3& v) {
     return {v.x(), v.y(), v.z()};
 }
 
@@ -55,8 +55,8 @@ json toJson(const SceneStep& step, const PathPose& pose) {
         const ObstacleContact& c = step.path.contacts[e];
         contact.push_back(c.isTouched);
         if (c.isTouched)
-            segments.push_back({{"P", toJson(Vec3(pose.X_GE[e] * c.geodesic.P.x))},
-                                {"Q", toJson(Vec3(pose.X_GE[e] * c.geodesic.Q.x))},
+            segments.push_back({{"P", toJson(Vector3(pose.X_GE[e] * c.geodesic.P.x))},
+                                {"Q", toJson(Vector3(pose.X_GE[e] * c.geodesic.Q.x))},
                                 {"arc", c.start.length}});
         else
             segments.push_back(nullptr);

@@ -56,7 +56,7 @@ struct SwingingChain {
     SimTK::MultibodySystem system;
     SimTK::SimbodyMatterSubsystem matter{system};
     SimTK::GeneralForceSubsystem forces{system};
-    CableSubsystem cables{system};
+    CablePathSubsystem cables{system};
 };
 
 struct StudyCost {

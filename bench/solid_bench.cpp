@@ -22,8 +22,8 @@ void evaluate(benchmark::State& state) {
     const SolidFit& bone = getBone();
     std::mt19937 random(1);
     std::uniform_int_distribution<std::size_t> draw(0, bone.points.size() - 1);
-    std::vector<Vec3> places(1000);
-    for (Vec3& place : places) place = bone.points[draw(random)];
+    std::vector<Vector3> places(1000);
+    for (Vector3& place : places) place = bone.points[draw(random)];
     std::size_t at = 0;
     for (auto _ : state) {
         benchmark::DoNotOptimize(bone.solid.calcImplicit(places[at]));
@@ -37,14 +37,14 @@ class MuscleOverBone {
 public:
     MuscleOverBone() {
         m_problem.addPoint("origin");
-        m_problem.addObstacle("bone", std::make_shared<BSplineSolid>(getBone().solid), PassNear{Vec3(0.03, 0, 0)});
+        m_problem.addObstacle("bone", std::make_shared<BSplineSolid>(getBone().solid), PassNear{Vector3(0.03, 0, 0)});
         m_problem.addPoint("insertion");
     }
     const PathProblem& getProblem() const { return m_problem; }
     PathPose calcPose(int step) const {
         PathPose pose;
         const double along = 2e-4 * (step % 200 < 100 ? step % 200 : 200 - step % 200);
-        pose.X_GE = {Pose(Vec3(-0.01, -0.06, -0.03)), Pose(), Pose(Vec3(-0.02, 0.07, 0.01 + along))};
+        pose.X_GE = {Pose(Vector3(-0.01, -0.06, -0.03)), Pose(), Pose(Vector3(-0.02, 0.07, 0.01 + along))};
         return pose;
     }
 

@@ -14,7 +14,7 @@ namespace {
 
 std::string writeXml(const WeaveRow& row) {
     std::ostringstream bodies, tendon;
-    const auto addSite = [&](const std::string& name, const Vec3& p) {
+    const auto addSite = [&](const std::string& name, const Vector3& p) {
         bodies << "<site name='" << name << "' pos='" << p.x() << " " << p.y() << " " << p.z() << "'/>\n";
     };
     const char* type = row.kind == Kind::Cylinders ? "cylinder' size='0.4 1" : "sphere' size='0.4";
@@ -25,7 +25,7 @@ std::string writeXml(const WeaveRow& row) {
             tendon << "<site site='point" << number << "'/>\n";
         } else {
             bodies << "<body><freejoint/><geom name='geom" << number << "' type='" << type << "'/>\n";
-            addSite("side" + number, Vec3(0, i % 2 == 0 ? 0.6 : -0.6, 0));
+            addSite("side" + number, Vector3(0, i % 2 == 0 ? 0.6 : -0.6, 0));
             bodies << "</body>\n";
             tendon << "<geom geom='geom" << number << "' sidesite='side" << number << "'/>\n";
         }

@@ -34,7 +34,7 @@ struct TautlineWeave {
                                   row.problem.getElement(row.hasPointsBetween ? 2 * i + 1 : i + 1).surface,
                                   with.getHint(i));
             },
-            [&](const Vec3& point) { cable.addViaPoint(ground, toSimTK(point)); });
+            [&](const Vector3& point) { cable.addViaPoint(ground, toSimTK(point)); });
         with.begin();
         without.begin();
         cable.setContactMode(with.state, ContactMode::Tracked);  // as CableSpan decides about contacts
@@ -49,7 +49,7 @@ struct TautlineWeave {
     }
 
     WeaveBodies with, without;
-    CableSubsystem cables;
+    CablePathSubsystem cables;
     Cable cable;
 };
 
@@ -67,7 +67,7 @@ struct CablePathWeave {
                 surface.setNearPoint(with.getHint(i));
                 surface.setContactPointHints(P, SimTK::Vec3(-P[0], P[1], P[2]));
             },
-            [&](const Vec3& point) { SimTK::CableObstacle::ViaPoint(path, ground, toSimTK(point)); });
+            [&](const Vector3& point) { SimTK::CableObstacle::ViaPoint(path, ground, toSimTK(point)); });
         with.begin();
         without.begin();
     }
@@ -98,7 +98,7 @@ struct CableSpanWeave {
                 cable.addObstacle(with.bodies[static_cast<std::size_t>(i)], Transform(),
                                   std::make_shared<SimTK::ContactGeometry>(with.makeGeometry()), with.getHint(i));
             },
-            [&](const Vec3& point) { cable.addViaPoint(ground, toSimTK(point)); });
+            [&](const Vector3& point) { cable.addViaPoint(ground, toSimTK(point)); });
         with.begin();
         without.begin();
     }
@@ -111,7 +111,7 @@ struct CableSpanWeave {
     }
 
     WeaveBodies with, without;
-    SimTK::CableSubsystem cables;
+    SimTK::CablePathSubsystem cables;
     SimTK::CableSpan cable;
 };
 #endif

@@ -31,7 +31,7 @@ PathPose makePose(const WeaveScene& scene, double time, int count, bool hasPoint
     scene.calcPose(time, simple);
     pose.X_GE.push_back(simple.X_GE.front());
     for (int i = 0; i < count; ++i) {
-        if (hasPointsBetween && i > 0) pose.X_GE.emplace_back(Vec3(i - 0.5, 0, 0));
+        if (hasPointsBetween && i > 0) pose.X_GE.emplace_back(Vector3(i - 0.5, 0, 0));
         pose.X_GE.push_back(simple.X_GE[static_cast<std::size_t>(i) + 1]);
     }
     pose.X_GE.push_back(simple.X_GE.back());

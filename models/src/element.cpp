@@ -136,7 +136,7 @@ double Element::getNumber() const {
     return getNumbers(1)[0];
 }
 
-Vec3 Element::getVec3() const {
+Vector3 Element::getVec3() const {
     const std::vector<double> numbers = getNumbers(3);
     return {numbers[0], numbers[1], numbers[2]};
 }
@@ -159,7 +159,7 @@ std::optional<double> Element::findNumber(const std::string& tag) {
     return child ? std::optional<double>(child.getNumber()) : std::nullopt;
 }
 
-Vec3 Element::getVec3Or(const std::string& tag, const Vec3& fallback) {
+Vector3 Element::getVec3Or(const std::string& tag, const Vector3& fallback) {
     const Element child = find(tag);
     return child ? child.getVec3() : fallback;
 }

@@ -63,13 +63,13 @@ public:
     double getNumber() const;
     std::vector<double> getNumbers() const;
     std::vector<double> getNumbers(std::size_t count) const;
-    Vec3 getVec3() const;
+    Vector3 getVec3() const;
     bool getBool() const;
 
     double requireNumber(const std::string& tag) { return require(tag).getNumber(); }
     double getNumberOr(const std::string& tag, double fallback);
     std::optional<double> findNumber(const std::string& tag);
-    Vec3 getVec3Or(const std::string& tag, const Vec3& fallback);
+    Vector3 getVec3Or(const std::string& tag, const Vector3& fallback);
     bool getBoolOr(const std::string& tag, bool fallback);
     /** A number that must be greater than zero. */
     double requirePositive(const std::string& tag);

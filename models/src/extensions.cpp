@@ -26,11 +26,11 @@ double ElementProperties::getNumberOr(const std::string& tag, double fallback) {
     return m_element.getNumberOr(tag, fallback);
 }
 
-Vec3 ElementProperties::requireVec3(const std::string& tag) {
+Vector3 ElementProperties::requireVec3(const std::string& tag) {
     return m_element.require(tag).getVec3();
 }
 
-Vec3 ElementProperties::getVec3Or(const std::string& tag, const Vec3& fallback) {
+Vector3 ElementProperties::getVec3Or(const std::string& tag, const Vector3& fallback) {
     return m_element.getVec3Or(tag, fallback);
 }
 

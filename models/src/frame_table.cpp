@@ -37,11 +37,11 @@ std::pair<int, double> readAxis(Element& element, const std::string& tag, const 
 
 }  // namespace
 
-Pose makePose(const Vec3& origin, const Vec3& bodyFixedXyz) {
+Pose makePose(const Vector3& origin, const Vector3& bodyFixedXyz) {
     const double cx = std::cos(bodyFixedXyz[0]), sx = std::sin(bodyFixedXyz[0]);
     const double cy = std::cos(bodyFixedXyz[1]), sy = std::sin(bodyFixedXyz[1]);
     const double cz = std::cos(bodyFixedXyz[2]), sz = std::sin(bodyFixedXyz[2]);
-    Mat3 R;
+    Matrix3 R;
     R << cy * cz, -cy * sz, sy,                                    //
         cx * sz + sx * sy * cz, cx * cz - sx * sy * sz, -sx * cy,  //
         sx * sz - cx * sy * cz, sx * cz + cx * sy * sz, cx * cy;
@@ -56,8 +56,8 @@ void FrameTable::addBody(const std::string& name) {
 
 void FrameTable::addOffsetFrame(const std::string& path, Element element) {
     Element parent = element.requireSocket("parent");
-    const Vec3 translation = element.getVec3Or("translation", Vec3::Zero());
-    const Vec3 orientation = element.getVec3Or("orientation", Vec3::Zero());
+    const Vector3 translation = element.getVec3Or("translation", Vector3::Zero());
+    const Vector3 orientation = element.getVec3Or("orientation", Vector3::Zero());
     element.skip({"FrameGeometry", "attached_geometry"}, "only drawn");
     element.acceptTag("WrapObjectSet");
     element.refuseUnknown();
@@ -80,7 +80,7 @@ void FrameTable::addStationFrame(const std::string& path, Element element) {
 
 void FrameTable::addStation(const std::string& path, Element element) {
     const Element parent = element.requireSocket("parent_frame");
-    const Vec3 location = element.getVec3Or("location", Vec3::Zero());
+    const Vector3 location = element.getVec3Or("location", Vector3::Zero());
     element.skip({"fixed", "Appearance", "VisibleObject"}, "says nothing about the motion");
     element.refuseUnknown();
     m_stations.emplace(path, Station{path, parent, location});
@@ -143,12 +143,12 @@ BodyFrame FrameTable::calcStationFrame(const StationFrame& frame, int depth) con
         if (points[i].body != points[0].body)
             frame.stations[i].fail("the stations of the frame " + frame.path + " are on different bodies");
     }
-    const Vec3 ab = points[1].location_B - points[0].location_B, ac = points[2].location_B - points[0].location_B;
-    const Vec3 across = ab.cross(ac);
+    const Vector3 ab = points[1].location_B - points[0].location_B, ac = points[2].location_B - points[0].location_B;
+    const Vector3 across = ab.cross(ac);
     if (across.norm() <= 1e-12 * ab.norm() * ac.norm())
         frame.stations[0].fail("the stations a, b and c of the frame " + frame.path + " lie on a line");
     const int third = 3 - frame.alongAB - frame.acrossABC;
-    Mat3 R;
+    Matrix3 R;
     R.col(frame.alongAB) = frame.signAlong * ab.normalized();
     R.col(frame.acrossABC) = frame.signAcross * across.normalized();
     R.col(third) = R.col((third + 1) % 3).cross(R.col((third + 2) % 3));

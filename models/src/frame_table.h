@@ -9,7 +9,7 @@
 namespace tautline::models {
 
 /** The pose of a frame from its origin and the body-fixed x-y-z angles that turn it: R = Rx Ry Rz. */
-Pose makePose(const Vec3& origin, const Vec3& bodyFixedXyz);
+Pose makePose(const Vector3& origin, const Vector3& bodyFixedXyz);
 
 /** A frame fixed to a body. */
 struct BodyFrame {
@@ -52,11 +52,11 @@ private:
     struct Station {
         std::string path;
         Element parentSocket;
-        Vec3 location;
+        Vector3 location;
     };
     struct BodyPoint {
         std::string body;
-        Vec3 location_B;
+        Vector3 location_B;
     };
 
     BodyFrame resolveAtDepth(const Element& socket, const std::string& owner, int depth) const;

@@ -70,7 +70,7 @@ struct Rehearsal {
     SimTK::MultibodySystem system;
     SimTK::SimbodyMatterSubsystem matter;
     SimTK::GeneralForceSubsystem forces;
-    CableSubsystem cables;
+    CablePathSubsystem cables;
     BuiltModel model;
 };
 

@@ -34,7 +34,7 @@ JointAxes drive(std::initializer_list<std::size_t> axes) {
 
 /** Body-fixed angles x, y, z, and the origin of M at (a n_x, b n_y, c n_z) with the z axis n of M in F:
 n = (sin y, -sin x cos y, cos x cos y). */
-JointAxes makeEllipsoidAxes(const Vec3& semiAxes) {
+JointAxes makeEllipsoidAxes(const Vector3& semiAxes) {
     JointAxes axes = drive({0, 1, 2});
     const auto sine = [](double amplitude) { return ScalarFunction::sine(amplitude, 1.0, 0.0, 0.0); };
     const auto cosine = [](double amplitude) { return ScalarFunction::sine(amplitude, 1.0, kPi / 2, 0.0); };

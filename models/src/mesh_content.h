@@ -33,7 +33,7 @@ public:
     [[noreturn]] void failAtLine(const std::string& what) const;
     [[noreturn]] void failAtByte(const std::string& what) const;
 
-    void addPoint(const Vec3& point) { m_mesh.points.push_back(point); }
+    void addPoint(const Vector3& point) { m_mesh.points.push_back(point); }
     std::size_t countPoints() const { return m_mesh.points.size(); }
     /** @param corners   numbers of points, which need not be there yet; fewer than three are no face */
     void addFace(const std::vector<int>& corners);

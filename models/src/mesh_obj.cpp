@@ -5,8 +5,8 @@
 namespace tautline::models {
 namespace {
 
-Vec3 readPoint(MeshContent& content, std::string_view line) {
-    Vec3 point;
+Vector3 readPoint(MeshContent& content, std::string_view line) {
+    Vector3 point;
     for (double& coordinate : point) {
         const std::string_view word = takeWordOf(line);
         if (!toNumber(word, coordinate)) content.failAtLine("'" + std::string(word) + "' is no coordinate of a point");

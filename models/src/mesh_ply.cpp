@@ -111,7 +111,7 @@ void takeValues(MeshContent& content, Format format, const Property& property, s
 }
 
 void readElement(MeshContent& content, Format format, const ElementType& element, std::vector<double>& values) {
-    Vec3 point = Vec3::Constant(kNaN);
+    Vector3 point = Vector3::Constant(kNaN);
     for (const Property& property : element.properties) {
         takeValues(content, format, property, values);
         if (element.name == "vertex" && !property.countType)

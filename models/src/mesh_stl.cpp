@@ -16,7 +16,7 @@ TriangleMesh readAscii(MeshContent& content) {
     int corners = 0;
     for (std::string_view word = content.takeWord(); !word.empty(); word = content.takeWord()) {
         if (word == "vertex") {
-            Vec3 point;
+            Vector3 point;
             for (double& coordinate : point) coordinate = content.takeNumber();
             content.addPoint(point);
             ++corners;
@@ -45,7 +45,7 @@ TriangleMesh readBinary(MeshContent& content) {
         const std::size_t begin = content.getPlace();
         content.setPlace(begin + 3 * sizeof(float));  // behind the normal
         for (int corner = 0; corner < 3; ++corner) {
-            Vec3 point;
+            Vector3 point;
             for (double& coordinate : point) coordinate = take(NumberType::Float32);
             content.addPoint(point);
         }

@@ -246,7 +246,7 @@ private:
                                              [e](const StraightSegment& line) { return line.toElement == e; });
             if (before == segments.end() || before + 1 == segments.end()) continue;
             const Pose& X_GE = core.pose->X_GE[static_cast<std::size_t>(e)];
-            const Vec3 A = X_GE.shiftBack(before->A), B = X_GE.shiftBack((before + 1)->B);
+            const Vector3 A = X_GE.shiftBack(before->A), B = X_GE.shiftBack((before + 1)->B);
             const double length = before->length + contact.geodesic.length + (before + 1)->length;
             if (const std::optional<double> section = calcSectionLength(ellipsoid->semiAxes, A, B))
                 note(CheckedDeviation::Kind::PlaneSection, m_studied.obstacles[i], length - *section, pose);

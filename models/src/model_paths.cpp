@@ -34,7 +34,7 @@ std::function<bool(const SimTK::State&)> makeCondition(const PathPoint& point, c
 }
 
 /** A cable between the ends of a path. */
-Cable makeCable(CableSubsystem& cables, const ModelDescription& description, const std::string& owner,
+Cable makeCable(CablePathSubsystem& cables, const ModelDescription& description, const std::string& owner,
                 const std::string& name, const MusclePath& path, const BuiltModel& model) {
     const PathPoint &first = path.points.front(), &last = path.points.back();
     for (const PathPoint* end : {&first, &last})
@@ -77,7 +77,7 @@ struct Site {
     const ModelDescription& description;
     const BuiltModel& bodies;
     SimTK::GeneralForceSubsystem& forces;
-    CableSubsystem& cables;
+    CablePathSubsystem& cables;
 };
 
 Cable addCable(const Site& site, const std::string& kind, const std::string& name, const MusclePath& path,
@@ -138,7 +138,7 @@ ModelPaths::PathForceSlot add(const Site& site, const PathForce& force, const st
 }  // namespace
 
 ModelPaths::ModelPaths(const ModelDescription& description, const std::vector<std::vector<BoundWrap>>& wraps,
-                       const BuiltModel& bodies, SimTK::GeneralForceSubsystem& forces, CableSubsystem& cables) {
+                       const BuiltModel& bodies, SimTK::GeneralForceSubsystem& forces, CablePathSubsystem& cables) {
     const Site site{description, bodies, forces, cables};
     std::size_t next = 0;
     const auto addTo = [&](auto& slots, const auto& owner) {

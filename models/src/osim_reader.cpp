@@ -85,7 +85,7 @@ void skipWithoutEffect(Element& model) {
 void readModel(Element& element) {
     ModelDescription& model = element.updReading().model;
     model.name = element.getName();
-    model.gravity = element.getVec3Or("gravity", Vec3(0, -kDefaultGravity, 0));
+    model.gravity = element.getVec3Or("gravity", Vector3(0, -kDefaultGravity, 0));
     readUnits(element, "length_units", {"meters", "m", "Unassigned", ""});
     readUnits(element, "force_units", {"N", "newtons", "Newtons", "Unassigned", ""});
     BodyParts parts;

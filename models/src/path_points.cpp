@@ -42,7 +42,7 @@ bool PlacedPoint::isInRange(const SimTK::State& state) const {
 /** Past the range of its coordinate a moving point rests. */
 SimTK::Vec3 PlacedPoint::calcMoved(const SimTK::State& state) const {
     const double q = std::clamp(getCoordinate(state), m_low, m_high);
-    Vec3 location_F;
+    Vector3 location_F;
     for (int i = 0; i < 3; ++i) location_F[i] = m_moving->location_F[i].calcValue(q);
     return toSimTK(m_moving->X_BF * location_F);
 }

@@ -46,7 +46,7 @@ void repairInertia(const Element& element, Body& body) {
             element.note(element.describe() + " has no mass, so its inertia is taken as zero");
         inertia.fill(0.0);
     } else if (!isPossible(inertia)) {
-        const double moment = Vec3(inertia[0], inertia[1], inertia[2]).norm() / std::sqrt(3.0);
+        const double moment = Vector3(inertia[0], inertia[1], inertia[2]).norm() / std::sqrt(3.0);
         inertia = {moment, moment, moment, 0.0, 0.0, 0.0};
         element.note("no body can have the moments of inertia of " + element.describe() +
                      "; it is taken for a sphere of " + std::to_string(moment) + " kg m^2");
@@ -57,7 +57,7 @@ void readMassProperties(Element& element, Body& body) {
     const Element mass = element.require("mass");
     body.mass = mass.getNumber();
     if (body.mass < 0.0) mass.fail("negative mass " + mass.getText() + " of " + element.describe());
-    body.massCenter = element.getVec3Or("mass_center", Vec3::Zero());
+    body.massCenter = element.getVec3Or("mass_center", Vector3::Zero());
     body.inertia = readInertia(element);
     repairInertia(element, body);
 }

@@ -41,15 +41,15 @@ BodyFrame readEnd(Element& element, const std::string& number, const FrameTable&
     if (!socket) socket = element.find("body_" + number);
     if (!socket) element.fail(element.describe() + " has no socket_frame" + number);
     BodyFrame frame = frames.resolve(socket, "/forceset/" + element.getName());
-    frame.X_BF = frame.X_BF * makePose(element.getVec3Or("location_body_" + number, Vec3::Zero()),
-                                       element.getVec3Or("orientation_body_" + number, Vec3::Zero()));
+    frame.X_BF = frame.X_BF * makePose(element.getVec3Or("location_body_" + number, Vector3::Zero()),
+                                       element.getVec3Or("orientation_body_" + number, Vector3::Zero()));
     return frame;
 }
 
 std::array<double, 6> readSix(Element& element, const std::string& what) {
     std::array<double, 6> six{};
-    const Vec3 rotational = element.getVec3Or("rotational_" + what, Vec3::Zero());
-    const Vec3 translational = element.getVec3Or("translational_" + what, Vec3::Zero());
+    const Vector3 rotational = element.getVec3Or("rotational_" + what, Vector3::Zero());
+    const Vector3 translational = element.getVec3Or("translational_" + what, Vector3::Zero());
     for (int i = 0; i < 3; ++i) {
         six[static_cast<std::size_t>(i)] = rotational[i];
         six[static_cast<std::size_t>(i) + 3] = translational[i];
@@ -58,12 +58,12 @@ std::array<double, 6> readSix(Element& element, const std::string& what) {
 }
 
 /** Points of two bodies, `body1` and `point1` or with sockets. */
-std::pair<std::string, Vec3> readSpringEnd(Element& element, const std::string& number, const FrameTable& frames) {
+std::pair<std::string, Vector3> readSpringEnd(Element& element, const std::string& number, const FrameTable& frames) {
     Element socket = element.findSocket("body" + number);
     if (!socket) socket = element.find("body" + number);
     if (!socket) element.fail(element.describe() + " has no socket_body" + number);
     const BodyFrame frame = frames.resolve(socket, "/forceset/" + element.getName());
-    return {frame.body, frame.X_BF * element.getVec3Or("point" + number, Vec3::Zero())};
+    return {frame.body, frame.X_BF * element.getVec3Or("point" + number, Vector3::Zero())};
 }
 
 ContactMaterial readMaterial(Element& element, double stiffness, double dissipation) {

@@ -45,8 +45,8 @@ void readPoints(Element& element, const FrameTable& frames, Constraint& constrai
     const BodyFrame frame2 = resolveFrame(element, "body_2", "body_2", frames);
     constraint.body1 = frame1.body;
     constraint.body2 = frame2.body;
-    constraint.location1 = frame1.X_BF * element.getVec3Or("location_body_1", Vec3::Zero());
-    constraint.location2 = frame2.X_BF * element.getVec3Or("location_body_2", Vec3::Zero());
+    constraint.location1 = frame1.X_BF * element.getVec3Or("location_body_1", Vector3::Zero());
+    constraint.location2 = frame2.X_BF * element.getVec3Or("location_body_2", Vector3::Zero());
 }
 
 void requireTwoBodies(const Element& element, const std::string& body1, const std::string& body2) {
@@ -77,10 +77,10 @@ ModelConstraint readWeld(Element& element, const FrameTable& frames) {
     constraint.body1 = frame1.body;
     constraint.body2 = frame2.body;
     // The old layout has the frames' poses beside the names of the bodies.
-    constraint.X_B1F = frame1.X_BF * makePose(element.getVec3Or("location_body_1", Vec3::Zero()),
-                                              element.getVec3Or("orientation_body_1", Vec3::Zero()));
-    constraint.X_B2F = frame2.X_BF * makePose(element.getVec3Or("location_body_2", Vec3::Zero()),
-                                              element.getVec3Or("orientation_body_2", Vec3::Zero()));
+    constraint.X_B1F = frame1.X_BF * makePose(element.getVec3Or("location_body_1", Vector3::Zero()),
+                                              element.getVec3Or("orientation_body_1", Vector3::Zero()));
+    constraint.X_B2F = frame2.X_BF * makePose(element.getVec3Or("location_body_2", Vector3::Zero()),
+                                              element.getVec3Or("orientation_body_2", Vector3::Zero()));
     element.acceptTag("frames");
     requireTwoBodies(element, constraint.body1, constraint.body2);
     return constraint;
@@ -94,10 +94,10 @@ ModelConstraint readPointOnLine(Element& element, const FrameTable& frames) {
     const BodyFrame follower = resolveFrame(element, "follower_body", "follower_body", frames);
     constraint.lineBody = line.body;
     constraint.followerBody = follower.body;
-    constraint.pointOnLine = line.X_BF * element.getVec3Or("point_on_line", Vec3::Zero());
-    constraint.direction = line.X_BF.R * element.getVec3Or("line_direction_vec", Vec3::Zero());
+    constraint.pointOnLine = line.X_BF * element.getVec3Or("point_on_line", Vector3::Zero());
+    constraint.direction = line.X_BF.R * element.getVec3Or("line_direction_vec", Vector3::Zero());
     if (constraint.direction.isZero(0)) element.fail("the line of " + element.describe() + " has no direction");
-    constraint.follower = follower.X_BF * element.getVec3Or("point_on_follower", Vec3::Zero());
+    constraint.follower = follower.X_BF * element.getVec3Or("point_on_follower", Vector3::Zero());
     requireTwoBodies(element, constraint.lineBody, constraint.followerBody);
     return constraint;
 }

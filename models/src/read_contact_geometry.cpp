@@ -47,8 +47,8 @@ void readContactGeometry(Element element, const FrameTable& frames) {
     if (!socket) socket = element.require("body_name");
     const BodyFrame frame = frames.resolve(socket, "/contactgeometryset/" + geometry.name);
     geometry.body = frame.body;
-    geometry.X_BS = frame.X_BF * makePose(element.getVec3Or("location", Vec3::Zero()),
-                                          element.getVec3Or("orientation", Vec3::Zero()));
+    geometry.X_BS = frame.X_BF * makePose(element.getVec3Or("location", Vector3::Zero()),
+                                          element.getVec3Or("orientation", Vector3::Zero()));
     geometry.shape = reader->second(element);
     element.skip({"Appearance", "display_preference", "color", "VisibleObject"}, "only drawn");
     element.refuseUnknown();

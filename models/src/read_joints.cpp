@@ -148,9 +148,9 @@ void readSpatialTransform(Element& element, Joint& joint) {
     }
 }
 
-Vec3 requireSemiAxes(Element& element, const std::string& tag) {
+Vector3 requireSemiAxes(Element& element, const std::string& tag) {
     const Element radii = element.require(tag);
-    const Vec3 semiAxes = radii.getVec3();
+    const Vector3 semiAxes = radii.getVec3();
     if (semiAxes.minCoeff() <= 0.0) radii.fail("the " + radii.describeField() + " are not all positive");
     return semiAxes;
 }
@@ -160,8 +160,8 @@ void readEllipsoid(Element& element, Joint& joint) {
 }
 
 Pose readOffset(Element& element, const std::string& suffix) {
-    return makePose(element.getVec3Or("location" + suffix, Vec3::Zero()),
-                    element.getVec3Or("orientation" + suffix, Vec3::Zero()));
+    return makePose(element.getVec3Or("location" + suffix, Vector3::Zero()),
+                    element.getVec3Or("orientation" + suffix, Vector3::Zero()));
 }
 
 /** Of the parent or the child; documents before 30505 name the bodies and have no frames. */
@@ -222,11 +222,11 @@ the normal; the other axes do not matter. */
 Pose readWingingFrame(Element& element) {
     const std::vector<double> origin = element.require("scapula_winging_axis_origin").getNumbers(2);
     const double direction = element.getNumberOr("scapula_winging_axis_direction", 0.0);
-    Mat3 R;
-    R.col(2) = Vec3(-std::sin(direction), std::cos(direction), 0.0);
-    R.col(0) = Vec3::UnitZ();
+    Matrix3 R;
+    R.col(2) = Vector3(-std::sin(direction), std::cos(direction), 0.0);
+    R.col(0) = Vector3::UnitZ();
     R.col(1) = R.col(2).cross(R.col(0));
-    return {R, Vec3(origin[0], origin[1], 0.0)};
+    return {R, Vector3(origin[0], origin[1], 0.0)};
 }
 
 /** A scapula on the thorax (Seth et al. 2019): an ellipsoid joint whose frames are turned by a quarter about z, so that
@@ -239,11 +239,11 @@ void readScapulothoracic(const JointElement& source, Element& element, const Fra
     Body link;
     link.name = gliding.name + "/winging";
     link.line = gliding.line;
-    const Pose quarterTurn = makePose(Vec3::Zero(), Vec3(0.0, 0.0, kPi / 2));
-    const Vec3 semiAxes = requireSemiAxes(element, "thoracic_ellipsoid_radii_x_y_z");
+    const Pose quarterTurn = makePose(Vector3::Zero(), Vector3(0.0, 0.0, kPi / 2));
+    const Vector3 semiAxes = requireSemiAxes(element, "thoracic_ellipsoid_radii_x_y_z");
     gliding.type = JointType::Ellipsoid;
     gliding.parentOffset = gliding.parentOffset * quarterTurn;
-    gliding.semiAxes = Vec3(semiAxes.y(), semiAxes.x(), semiAxes.z());
+    gliding.semiAxes = Vector3(semiAxes.y(), semiAxes.x(), semiAxes.z());
     gliding.childBody = link.name;
     gliding.childOffset = quarterTurn;
     gliding.coordinates.pop_back();

@@ -7,7 +7,7 @@ namespace {
 /** How a mesh lies in the frame that has it: turned and moved, then scaled in its own frame. */
 struct Placing {
     Pose X_FM;
-    Vec3 scale = Vec3::Ones();
+    Vector3 scale = Vector3::Ones();
 };
 
 void addMesh(const Element& element, const std::string& file, const BodyFrame& frame, const Placing& placing) {
@@ -19,7 +19,7 @@ void addMesh(const Element& element, const std::string& file, const BodyFrame& f
 /** <scale_factors>, and <transform> of documents before 30500: three body-fixed angles, then a shift. */
 Placing readPlacing(Element& element) {
     Placing placing;
-    placing.scale = element.getVec3Or("scale_factors", Vec3::Ones());
+    placing.scale = element.getVec3Or("scale_factors", Vector3::Ones());
     if (const Element transform = element.find("transform")) {
         const std::vector<double> numbers = transform.getNumbers(6);
         placing.X_FM = makePose({numbers[3], numbers[4], numbers[5]}, {numbers[0], numbers[1], numbers[2]});
@@ -37,7 +37,7 @@ void readMesh(Element element, const FrameElement& owner, const BodyParts& parts
     if (socket && socket.getText() != ".." && !socket.getText().empty())
         frame = parts.frames.resolve(socket, owner.path + "/" + element.getName());
     addMesh(element, element.require("mesh_file").getText(), frame,
-            {{}, element.getVec3Or("scale_factors", Vec3::Ones())});
+            {{}, element.getVec3Or("scale_factors", Vector3::Ones())});
 }
 
 /** Of a set, in its <objects> or not; whatever else is in it is only drawn, too. None of a set that is not there. */

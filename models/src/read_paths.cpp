@@ -202,7 +202,7 @@ std::size_t makeWrapObject(ModelDescription& model, const ContactGeometry& geome
 }
 
 /** A hint of NaN is none. */
-std::optional<Vec3> readContactHint(Element& element) {
+std::optional<Vector3> readContactHint(Element& element) {
     const Element hint = element.find("contact_hint");
     if (!hint || hint.getText().find_first_of("nN") != std::string::npos) return std::nullopt;
     return hint.getVec3();

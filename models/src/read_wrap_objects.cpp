@@ -83,14 +83,14 @@ SphereShape readSphere(Element& element) {
 /** Of a file that `tautline fit` has written, scaled as a Mesh is. It is looked for beside the model. */
 MeshShape readMesh(Element& element) {
     const Element file = element.require("solid_file");
-    const Vec3 factors = element.getVec3Or("scale_factors", Vec3::Ones());
+    const Vector3 factors = element.getVec3Or("scale_factors", Vector3::Ones());
     if (!(factors.minCoeff() > 0))
         element.require("scale_factors").fail("scale_factors of " + element.describe() + " must be positive");
     const std::filesystem::path model = element.updReading().model.fileName;
     try {
         const auto solid = std::make_shared<BSplineSolid>(readSolidFile(model.parent_path() / file.getText()));
-        if (factors == Vec3::Ones()) return {solid};
-        return {makeScaledSurface(solid, Mat3(factors.asDiagonal()))};
+        if (factors == Vector3::Ones()) return {solid};
+        return {makeScaledSurface(solid, Matrix3(factors.asDiagonal()))};
     } catch (const InvalidInput& refused) {
         file.fail(refused.what());
     }
@@ -120,7 +120,7 @@ MeshShape readPatch(Element& element) {
     const Element heights = element.require("heights"), orders = element.find("orders"),
                   controls = element.find("control_points");
     const std::vector<double> limits = element.require("domain").getNumbers(4);
-    const ParameterDomain domain{Vec2(limits[0], limits[2]), Vec2(limits[1], limits[3])};
+    const ParameterDomain domain{Vector2(limits[0], limits[2]), Vector2(limits[1], limits[3])};
     if (bool(orders) == bool(controls)) element.fail(element.describe() + " has either orders or control_points");
     try {
         const auto [numU, numV] = readCounts(orders ? orders : controls);
@@ -190,8 +190,8 @@ void readWrapObject(Element element, const BodyFrame& owner) {
     wrap.name = element.getRequiredName();
     wrap.line = element.findLine();
     wrap.body = owner.body;
-    const Vec3 translation = element.getVec3Or("translation", Vec3::Zero());
-    const Vec3 rotation = element.getVec3Or("xyz_body_rotation", Vec3::Zero());
+    const Vector3 translation = element.getVec3Or("translation", Vector3::Zero());
+    const Vector3 rotation = element.getVec3Or("xyz_body_rotation", Vector3::Zero());
     wrap.X_BW = owner.X_BF * makePose(translation, rotation);
     wrap.quadrant = readQuadrant(element);
     wrap.active = element.getBoolOr("active", true);

@@ -98,7 +98,7 @@ StartHint makeHint(const SampledWrap& sampled, const SegmentInObject& atDefault)
     // A contact geometry without a hint is passed where the straight line suggests.
     if (std::holds_alternative<TorusShape>(sampled.object->shape) && !sampled.object->isContactGeometry)
         return ThreadHole{atDefault.e.z() < 0 ? -1 : 1};
-    const Vec3 side = getActiveSide(sampled.object->quadrant);
+    const Vector3 side = getActiveSide(sampled.object->quadrant);
     if (side.isZero()) return {};
     return PassOnSide{side};
 }

@@ -22,7 +22,7 @@ public:
     }
 
     /** Its ends in the frame of the object. */
-    std::pair<Vec3, Vec3> locate(const SimTK::State& state) const {
+    std::pair<Vector3, Vector3> locate(const SimTK::State& state) const {
         const SimTK::Transform X_GW = m_body->getBodyTransform(state) * m_X_BW;
         const auto locateNearest = [&](const std::vector<PlacedPoint>& points) {
             std::size_t p = 0;

@@ -14,7 +14,7 @@ struct TurnedString {
     double middle = 0;                             ///< angle of the middle of the arc
 
     /** @param turn   1 from x to y, or -1 */
-    TurnedString(double radius, const Vec3& A, const Vec3& B, double turn) {
+    TurnedString(double radius, const Vector3& A, const Vector3& B, double turn) {
         const double a = std::hypot(A.x(), A.y()), b = std::hypot(B.x(), B.y());
         const double begin = std::atan2(A.y(), A.x()) + turn * std::acos(radius / a);
         const double end = std::atan2(B.y(), B.x()) - turn * std::acos(radius / b);
@@ -29,13 +29,13 @@ struct TurnedString {
     double getLength() const { return straightA + arc + straightB; }
 };
 
-bool isOutside(const CylinderShape& cylinder, const Vec3& A, const Vec3& B) {
+bool isOutside(const CylinderShape& cylinder, const Vector3& A, const Vector3& B) {
     const double least = cylinder.radius * cylinder.radius;
     return A.head<2>().squaredNorm() > least && B.head<2>().squaredNorm() > least;
 }
 
 /** On the side that is asked for, else the shorter way. */
-TurnedString layString(const CylinderShape& cylinder, const Vec3& side, const Vec3& A, const Vec3& B) {
+TurnedString layString(const CylinderShape& cylinder, const Vector3& side, const Vector3& A, const Vector3& B) {
     const TurnedString forth(cylinder.radius, A, B, 1), back(cylinder.radius, A, B, -1);
     const auto isOnSide = [&](const TurnedString& string) {
         return side.x() * std::cos(string.middle) + side.y() * std::sin(string.middle) > 0;
@@ -46,35 +46,35 @@ TurnedString layString(const CylinderShape& cylinder, const Vec3& side, const Ve
 
 }  // namespace
 
-Vec3 getActiveSide(Quadrant quadrant) {
+Vector3 getActiveSide(Quadrant quadrant) {
     switch (quadrant) {
         case Quadrant::PlusX:
-            return Vec3::UnitX();
+            return Vector3::UnitX();
         case Quadrant::MinusX:
-            return -Vec3::UnitX();
+            return -Vector3::UnitX();
         case Quadrant::PlusY:
-            return Vec3::UnitY();
+            return Vector3::UnitY();
         case Quadrant::MinusY:
-            return -Vec3::UnitY();
+            return -Vector3::UnitY();
         case Quadrant::PlusZ:
-            return Vec3::UnitZ();
+            return Vector3::UnitZ();
         case Quadrant::MinusZ:
-            return -Vec3::UnitZ();
+            return -Vector3::UnitZ();
         case Quadrant::All:
             break;
     }
-    return Vec3::Zero();
+    return Vector3::Zero();
 }
 
-SegmentInObject::SegmentInObject(const Surface& surface, const Vec3& begin, const Vec3& end)
+SegmentInObject::SegmentInObject(const Surface& surface, const Vector3& begin, const Vector3& end)
     : A(begin), length((end - begin).norm()) {
-    e = length > 0 ? Vec3((end - begin) / length) : Vec3(Vec3::UnitX());
+    e = length > 0 ? Vector3((end - begin) / length) : Vector3(Vector3::UnitX());
     lowest = surface.findLowestPoint(A, e, length);
     height = surface.calcHeight(A + lowest * e);
     hasEndInside = surface.calcHeight(begin) < 0 || surface.calcHeight(end) < 0;
 }
 
-bool touchesWithinLength(const CylinderShape& cylinder, const Vec3& side, const Vec3& A, const Vec3& B) {
+bool touchesWithinLength(const CylinderShape& cylinder, const Vector3& side, const Vector3& A, const Vector3& B) {
     const double end = 0.5 * cylinder.length;
     if (std::max(std::abs(A.z()), std::abs(B.z())) <= end) return true;  // and so is all between
     if (!isOutside(cylinder, A, B)) return true;
@@ -88,9 +88,9 @@ bool touchesWithinLength(const CylinderShape& cylinder, const Vec3& side, const 
 
 bool isEngaged(const WrapObject& object, const SegmentInObject& segment) {
     if (segment.hasEndInside) return false;
-    const Vec3 D = segment.A + segment.lowest * segment.e, B = segment.getEnd();
+    const Vector3 D = segment.A + segment.lowest * segment.e, B = segment.getEnd();
     const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
-    const Vec3 side = getActiveSide(object.quadrant);
+    const Vector3 side = getActiveSide(object.quadrant);
     if (cylinder && !touchesWithinLength(*cylinder, side, segment.A, B)) return false;
     if (segment.isPierced()) return true;
     if (!cylinder || side.isZero()) return false;

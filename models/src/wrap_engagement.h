@@ -11,19 +11,19 @@ are in the frame of the object. */
 namespace tautline::models {
 
 /** The axis and sign of a quadrant; a zero vector for all. */
-Vec3 getActiveSide(Quadrant quadrant);
+Vector3 getActiveSide(Quadrant quadrant);
 
 /** A straight segment from A to B seen from a wrap object. */
 struct SegmentInObject {
-    Vec3 A, e;  ///< begin and direction
+    Vector3 A, e;  ///< begin and direction
     double length = 0.0;
     double lowest = 0.0;  ///< coordinate of its lowest point over the surface
     double height = 0.0;  ///< of that point
     bool hasEndInside = false;
 
     SegmentInObject() = default;
-    SegmentInObject(const Surface& surface, const Vec3& begin, const Vec3& end);
-    Vec3 getEnd() const { return A + length * e; }
+    SegmentInObject(const Surface& surface, const Vector3& begin, const Vector3& end);
+    Vector3 getEnd() const { return A + length * e; }
     bool isPierced() const { return height < 0; }
 };
 
@@ -31,7 +31,7 @@ struct SegmentInObject {
 its arc at least: beyond that OpenSim lets it wrap no more. Where the string would lift off, the place at which it last
 touched decides, so that the answer changes with the place and not with the contact. True if an end is inside.
 @param side   on which it passes; zero: the shorter one */
-bool touchesWithinLength(const CylinderShape& cylinder, const Vec3& side, const Vec3& A, const Vec3& B);
+bool touchesWithinLength(const CylinderShape& cylinder, const Vector3& side, const Vector3& A, const Vector3& B);
 
 /** Whether a path wraps on this segment: where the segment meets the object, or, of a cylinder with a quadrant, where
 it passes it on the side opposite to the active one. A cylinder counts within its length only. */

@@ -12,8 +12,8 @@
 namespace tautline::python {
 namespace {
 
-StartHint makeHint(const std::optional<Vec3>& near, const std::optional<Vec3>& side, const std::optional<double>& turns,
-                   const std::optional<int>& passages) {
+StartHint makeHint(const std::optional<Vector3>& near, const std::optional<Vector3>& side,
+                   const std::optional<double>& turns, const std::optional<int>& passages) {
     require(near.has_value() + side.has_value() + turns.has_value() + passages.has_value() <= 1,
             "an obstacle can have one of near, side, turns and passages, not several");
     if (near) return PassNear{*near};
@@ -24,8 +24,8 @@ StartHint makeHint(const std::optional<Vec3>& near, const std::optional<Vec3>& s
 }
 
 int addObstacle(PathProblem& problem, const std::string& name, const std::shared_ptr<Surface>& surface,
-                const std::optional<Vec3>& near, const std::optional<Vec3>& side, const std::optional<double>& turns,
-                const std::optional<int>& passages) {
+                const std::optional<Vector3>& near, const std::optional<Vector3>& side,
+                const std::optional<double>& turns, const std::optional<int>& passages) {
     return problem.addObstacle(name, surface, makeHint(near, side, turns, passages));
 }
 
@@ -35,8 +35,8 @@ Pose readPose(const double* X, py::ssize_t pose, py::ssize_t element) {
     constexpr double kRoom = 1e-6;
     using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
     const Eigen::Map<const Matrix> matrix(X);
-    const Mat3 R = matrix.topLeftCorner<3, 3>();
-    const double skew = (R.transpose() * R - Mat3::Identity()).cwiseAbs().maxCoeff();
+    const Matrix3 R = matrix.topLeftCorner<3, 3>();
+    const double skew = (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff();
     const bool isRigid = skew <= kRoom && R.determinant() > 0 && matrix(3, 3) == 1 && matrix.row(3).head<3>().isZero(0);
     require(isRigid || !matrix.allFinite(), "poses[", pose, ", ", element, "] is not a rotation and a translation");
     return {R, matrix.topRightCorner<3, 1>()};
@@ -122,7 +122,7 @@ public:
             for (std::size_t o = 0; o < m_obstacles.size(); ++o) {
                 const auto e = static_cast<std::size_t>(m_obstacles[o]);
                 const ObstacleContact& contact = path(i).contacts.at(e);
-                Vec3 point = Vec3::Constant(kNaN);
+                Vector3 point = Vector3::Constant(kNaN);
                 if (contact.isTouched)
                     point = pose(i).X_GE[e] * (isP ? contact.geodesic.P.x : contact.getLastArc().geodesic.Q.x);
                 for (int k = 0; k < 3; ++k) *points.mutable_data(i, o, k) = point[k];
@@ -188,7 +188,7 @@ public:
 
     Numbers calcPoints(int i, double maxAngle) const {
         requireIndex(i);
-        std::vector<Vec3> points_G;
+        std::vector<Vector3> points_G;
         calcDrawingPoints(path(i), m_problem, pose(i), maxAngle, points_G);
         Numbers points({static_cast<int>(points_G.size()), 3});
         for (std::size_t p = 0; p < points_G.size(); ++p)
@@ -208,8 +208,8 @@ private:
     std::vector<SpatialVelocity> readVelocities(const double* numbers) const {
         std::vector<SpatialVelocity> V_GE(static_cast<std::size_t>(m_problem.getNumElements()));
         for (SpatialVelocity& V : V_GE) {
-            V.w = Vec3(numbers);
-            V.v = Vec3(numbers + 3);
+            V.w = Vector3(numbers);
+            V.v = Vector3(numbers + 3);
             numbers += 6;
         }
         return V_GE;

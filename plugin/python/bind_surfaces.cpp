@@ -10,8 +10,8 @@
 #include "tautline/surfaces/elliptic_cylinder.h"
 #include "tautline/surfaces/elliptic_torus.h"
 #include "tautline/surfaces/function_surface.h"
+#include "tautline/surfaces/half_space.h"
 #include "tautline/surfaces/paraboloid.h"
-#include "tautline/surfaces/plane.h"
 #include "tautline/surfaces/sphere.h"
 #include "tautline/surfaces/surface_laws.h"
 #include "tautline/surfaces/torus.h"
@@ -46,8 +46,8 @@ std::shared_ptr<ImplicitFunctionSurface> makeImplicit(const std::string& descrip
     return surface;
 }
 
-std::shared_ptr<ParametricFunctionSurface> makeParametric(const std::string& description, double size, const Vec2& min,
-                                                          const Vec2& max,
+std::shared_ptr<ParametricFunctionSurface> makeParametric(const std::string& description, double size,
+                                                          const Vector2& min, const Vector2& max,
                                                           ParametricFunctionSurface::PositionFunction position,
                                                           double normalSign) {
     return std::make_shared<ParametricFunctionSurface>(ParametricFunctionSurface::fromPosition(
@@ -61,7 +61,7 @@ std::vector<std::string> checkLaws(const Surface& surface, const Numbers& points
     requireShape(directions, "directions", {points.shape(0), 3});
     std::vector<SurfaceLawSample> samples;
     for (py::ssize_t i = 0; i < points.shape(0); ++i)
-        samples.push_back({Vec3(points.data(i, 0)), Vec3(directions.data(i, 0)), length});
+        samples.push_back({Vector3(points.data(i, 0)), Vector3(directions.data(i, 0)), length});
     const py::gil_scoped_release released;
     return checkSurfaceLaws(surface, samples);
 }
@@ -70,7 +70,7 @@ Numbers calcHeights(const Surface& surface, const Numbers& points) {
     requireShape(points, "points", {-1, 3});
     Numbers heights(points.shape(0));
     for (py::ssize_t i = 0; i < points.shape(0); ++i)
-        *heights.mutable_data(i) = surface.calcHeight(Vec3(points.data(i, 0)));
+        *heights.mutable_data(i) = surface.calcHeight(Vector3(points.data(i, 0)));
     return heights;
 }
 
@@ -95,7 +95,7 @@ void bindSurfaces(py::module_& module) {
     bindShape<Cylinder, double>(module, "Cylinder", "A cylinder about the z axis without end. radius [m]",
                                 arg("radius"));
     bindShape<Sphere, double>(module, "Sphere", "A sphere. radius [m]", arg("radius"));
-    bindShape<Ellipsoid, const Vec3&>(module, "Ellipsoid", "An ellipsoid. semi_axes (3,) [m]", arg("semi_axes"));
+    bindShape<Ellipsoid, const Vector3&>(module, "Ellipsoid", "An ellipsoid. semi_axes (3,) [m]", arg("semi_axes"));
     bindShape<Torus, double, double>(module, "Torus", "A ring about the z axis. ring_radius, tube_radius [m]",
                                      arg("ring_radius"), arg("tube_radius"));
     bindShape<EllipticTorus, double, double, double>(
@@ -106,8 +106,9 @@ void bindSurfaces(py::module_& module) {
                                                 arg("semi_axis_x"), arg("semi_axis_y"));
     bindShape<Paraboloid, double, double>(module, "Paraboloid", "z = x^2/a + y^2/b; paths run below it. a, b [m]",
                                           arg("a"), arg("b"));
-    bindShape<Plane, double>(module, "Plane", "The plane z = 0, outward along z. size: a length of the scene [m]",
-                             arg("size"));
+    bindShape<HalfSpace, double>(
+        module, "HalfSpace", "The half-space below the plane z = 0, outward along z. size: a length of the scene [m]",
+        arg("size"));
     bindShape<Cone, double, double, double>(module, "Cone",
                                             "A cone about the z axis. half_angle [rad]; radius and edge_radius [m]",
                                             arg("half_angle"), arg("radius"), arg("edge_radius") = 0.0);

@@ -49,7 +49,7 @@ Bones loadBones(const models::ModelDescription& description, const models::Built
         if (!entry->second) continue;
         ReportPage::Mesh mesh{bodies.getBodyIndex(bone.body), toTransform(bone.X_BM), entry->second->points,
                               entry->second->triangles};
-        for (Vec3& point : mesh.points_M) point = point.cwiseProduct(bone.scale);
+        for (Vector3& point : mesh.points_M) point = point.cwiseProduct(bone.scale);
         bones.meshes.push_back(std::move(mesh));
     }
     if (!missing.empty())

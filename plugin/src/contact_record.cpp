@@ -81,7 +81,7 @@ PathSolution makeStart(const std::vector<RecordedContact>& contacts, const Model
 
 std::string makeArcFields(const GeodesicStart& arc) {
     std::string text;
-    for (const Vec3& vector : {arc.point.p, arc.tangent})
+    for (const Vector3& vector : {arc.point.p, arc.tangent})
         for (int i = 0; i < 3; ++i) text += "," + toText(vector[i]);
     return text + "," + toText(arc.length);
 }

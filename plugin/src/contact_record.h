@@ -13,7 +13,7 @@ namespace tautline {
 /** An arc on an obstacle, in the obstacle's frame. */
 struct RecordedContact {
     std::string path, obstacle;  ///< "/forceset/<name>", name of the element
-    Vec3 point, direction;       ///< where the arc begins [m], and a unit vector along it
+    Vector3 point, direction;    ///< where the arc begins [m], and a unit vector along it
     double length = 0;           ///< [m]
 };
 

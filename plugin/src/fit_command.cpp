@@ -23,7 +23,7 @@ std::string inMillimeters(double length) {
     return text.str();
 }
 
-std::string inMillimeters(const Vec3& lengths) {
+std::string inMillimeters(const Vector3& lengths) {
     std::ostringstream text;
     text.precision(4);
     text << 1000 * lengths.x() << " x " << 1000 * lengths.y() << " x " << 1000 * lengths.z() << " mm";
@@ -33,7 +33,7 @@ std::string inMillimeters(const Vec3& lengths) {
 TriangleMesh readScaled(const std::filesystem::path& file, double unit) {
     require(unit > 0 && unit <= 1e6, "the unit of a mesh must be positive, but is ", unit);
     TriangleMesh mesh = models::readMeshFile(file);
-    for (Vec3& point : mesh.points) point *= unit;
+    for (Vector3& point : mesh.points) point *= unit;
     return mesh;
 }
 
@@ -55,7 +55,7 @@ std::string describeRepairs(const RepairedMesh& repaired) {
 
 void printFit(const SolidFit& fit, std::ostream& out) {
     const SolidGrid& grid = fit.solid.getGrid();
-    const Vec3& worst = fit.points[static_cast<std::size_t>(fit.report.worst)];
+    const Vector3& worst = fit.points[static_cast<std::size_t>(fit.report.worst)];
     out << "put in order: " << describeRepairs(fit.repaired) << "; " << fit.repaired.parts
         << (fit.repaired.parts == 1 ? " part\n" : " parts\n") << "smoothed: width " << inMillimeters(grid.width)
         << ", grid " << inMillimeters(grid.spacing) << "\n"
@@ -82,11 +82,11 @@ std::string listNumbers(const Numbers& numbers) {
 /** @param heights   z of the coefficients or control points */
 void printPatchElement(const std::string& name, const Pose& X_MP, const ParameterDomain& domain,
                        const std::string& kind, const Eigen::RowVectorXd& heights, std::ostream& out) {
-    const Vec3 angles = X_MP.R.eulerAngles(0, 1, 2);
+    const Vector3 angles = X_MP.R.eulerAngles(0, 1, 2);
     out << "\n<TautlineWrapPatch name=\"" << name << "\">\n"
         << "    <translation>" << listNumbers(X_MP.p) << "</translation>\n"
         << "    <xyz_body_rotation>" << listNumbers(angles) << "</xyz_body_rotation>\n"
-        << "    <domain>" << listNumbers(Vec4(domain.min[0], domain.max[0], domain.min[1], domain.max[1]))
+        << "    <domain>" << listNumbers(Vector4(domain.min[0], domain.max[0], domain.min[1], domain.max[1]))
         << "</domain>\n"
         << "    " << kind << "\n"
         << "    <heights>" << listNumbers(heights) << "</heights>\n"
@@ -96,7 +96,7 @@ void printPatchElement(const std::string& name, const Pose& X_MP, const Paramete
 void printPatchFit(const PatchRegion& region, const std::vector<int>& kept, const FitReport& report,
                    std::ostream& out) {
     const int worst = kept[static_cast<std::size_t>(report.worst)];
-    const Vec3 place = region.X_MP * region.points_P[static_cast<std::size_t>(worst)];
+    const Vector3 place = region.X_MP * region.points_P[static_cast<std::size_t>(worst)];
     out << "fitted to: " << kept.size() << " points with " << report.numUnknowns << " unknowns; " << report.leftOut
         << " outliers left out\n"
         << "off the points: " << inMillimeters(report.rms) << " rms, " << inMillimeters(report.largest)
@@ -160,10 +160,10 @@ void FitCommand::fitBone(const TriangleMesh& mesh, std::ostream& out) const {
 void FitCommand::fitPatch(const TriangleMesh& mesh, std::ostream& out) const {
     int numU, numV;
     const bool isSpline = readPatchKind(patch, numU, numV);
-    std::optional<Vec3> direction;
-    if (!toward.empty()) direction = Vec3(toward[0], toward[1], toward[2]);
+    std::optional<Vector3> direction;
+    if (!toward.empty()) direction = Vector3(toward[0], toward[1], toward[2]);
     Eigen::AlignedBox3d region;
-    if (!box.empty()) region = {Vec3(box[0], box[2], box[4]), Vec3(box[1], box[3], box[5])};
+    if (!box.empty()) region = {Vector3(box[0], box[2], box[4]), Vector3(box[1], box[3], box[5])};
     // In order, so that triangles face outward.
     const PatchRegion part = findPatchRegion(repairMesh(mesh).mesh, direction, region);
     const std::string name = meshFile.stem().string(), counts = std::to_string(numU) + " " + std::to_string(numV);

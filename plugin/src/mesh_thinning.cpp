@@ -13,7 +13,7 @@ constexpr double kFirstShare = 1.0 / 4096, kStep = 1.25;
 
 /** Points of one cell. */
 struct Cluster {
-    Vec3 sum = Vec3::Zero();
+    Vector3 sum = Vector3::Zero();
     int count = 0;
     int index = -1;  ///< in the new mesh; -1 until a triangle needs it
 };
@@ -28,7 +28,7 @@ double calcExtent(const std::vector<ReportPage::Mesh>& meshes) {
     double most = 0;
     for (const ReportPage::Mesh& mesh : meshes) {
         Eigen::AlignedBox3d box;
-        for (const Vec3& point : mesh.points_M) box.extend(point);
+        for (const Vector3& point : mesh.points_M) box.extend(point);
         if (!box.isEmpty()) most = std::max(most, box.diagonal().norm());
     }
     return most;
@@ -39,7 +39,7 @@ double calcExtent(const std::vector<ReportPage::Mesh>& meshes) {
 ReportPage::Mesh clusterPoints(const ReportPage::Mesh& mesh, double cell) {
     std::map<std::array<double, 3>, Cluster> clusters;
     std::vector<Cluster*> clusterOfPoint;
-    for (const Vec3& point : mesh.points_M) {
+    for (const Vector3& point : mesh.points_M) {
         Cluster& cluster =
             clusters[{std::floor(point.x() / cell), std::floor(point.y() / cell), std::floor(point.z() / cell)}];
         cluster.sum += point;

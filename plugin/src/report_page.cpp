@@ -78,7 +78,7 @@ std::int16_t toWhole(double number, double unit) {
 /** The unit [m] in which points are whole numbers. */
 class Unit {
 public:
-    void hold(const Vec3& point) {
+    void hold(const Vector3& point) {
         if (point.allFinite()) m_most = std::max(m_most, point.cwiseAbs().maxCoeff());
     }
     double get() const { return m_most / kMost; }
@@ -87,10 +87,10 @@ private:
     double m_most = 1e-3;
 };
 
-std::string encodePoints(const std::vector<Vec3>& points, double unit) {
+std::string encodePoints(const std::vector<Vector3>& points, double unit) {
     std::vector<std::int16_t> numbers;
     numbers.reserve(3 * points.size());
-    for (const Vec3& point : points)
+    for (const Vector3& point : points)
         for (int i = 0; i < 3; ++i) numbers.push_back(toWhole(point[i], unit));
     return encode(numbers);
 }
@@ -126,7 +126,7 @@ std::string describeMeshes(const std::vector<ReportPage::Mesh>& meshes) {
     JsonList list;
     for (const ReportPage::Mesh& mesh : meshes) {
         Unit unit;
-        for (const Vec3& point : mesh.points_M) unit.hold(point);
+        for (const Vector3& point : mesh.points_M) unit.hold(point);
         const bool isShort = mesh.points_M.size() < 65536;
         list.add("{\"body\":" + std::to_string(mesh.body) + ",\"pose\":" + toMatrix(mesh.X_BM) +
                  ",\"unit\":" + toNumber(unit.get(), 9) + ",\"points\":" + encodePoints(mesh.points_M, unit.get()) +
@@ -138,9 +138,9 @@ std::string describeMeshes(const std::vector<ReportPage::Mesh>& meshes) {
 double calcUnit(const ReportPage& page) {
     Unit unit;
     for (const ReportPage::Frame& frame : page.frames) {
-        for (const SimTK::Transform& X : frame.X_GB) unit.hold(Vec3(X.p()[0], X.p()[1], X.p()[2]));
+        for (const SimTK::Transform& X : frame.X_GB) unit.hold(Vector3(X.p()[0], X.p()[1], X.p()[2]));
         for (const ReportPage::Path& path : frame.paths)
-            for (const Vec3& point : path.points_G) unit.hold(point);
+            for (const Vector3& point : path.points_G) unit.hold(point);
     }
     return unit.get();
 }

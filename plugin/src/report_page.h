@@ -17,11 +17,11 @@ struct ReportPage {
     struct Mesh {
         int body = 0;  ///< index into Frame::X_GB
         SimTK::Transform X_BM;
-        std::vector<Vec3> points_M;
+        std::vector<Vector3> points_M;
         std::vector<std::array<int, 3>> triangles;
     };
     struct Path {
-        std::vector<Vec3> points_G;                    ///< none: the path is not drawn in this frame
+        std::vector<Vector3> points_G;                 ///< none: the path is not drawn in this frame
         std::vector<std::array<std::size_t, 2>> arcs;  ///< first and last point of each
     };
     struct Frame {
@@ -46,7 +46,7 @@ struct ReportPage {
     };
 
     std::string title, summary;
-    Vec3 up = Vec3::UnitY();
+    Vector3 up = Vector3::UnitY();
     std::vector<std::string> paths;  ///< their names
     std::vector<Mesh> surfaces, bones;
     std::vector<Frame> frames;

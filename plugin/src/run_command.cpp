@@ -103,7 +103,7 @@ models::ModelDescription RunCommand::readModel() const {
     models::ModelDescription description = models::readOsimFile(modelFile, {ignored, false});
     lockCoordinates(locked, description);
     if (gravity.empty()) return description;
-    description.gravity = Vec3(gravity[0], gravity[1], gravity[2]);
+    description.gravity = Vector3(gravity[0], gravity[1], gravity[2]);
     if (!description.gravity.allFinite())
         throw std::runtime_error("--gravity is " + toText(gravity[0]) + " " + toText(gravity[1]) + " " +
                                  toText(gravity[2]) + ", but must be finite");

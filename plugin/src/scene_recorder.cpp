@@ -24,11 +24,11 @@ constexpr std::size_t kTouchStride = 10;
 /** A path for drawing: its points, each once, and which of them are ends of arcs. */
 ReportPage::Path drawPath(const CorePath& core) {
     ReportPage::Path drawn;
-    std::vector<Vec3>& points = drawn.points_G;
+    std::vector<Vector3>& points = drawn.points_G;
     calcDrawingPoints(*core.solution, *core.problem, *core.pose, kMaxAngle, points);
     points.erase(std::unique(points.begin(), points.end()), points.end());
     std::size_t next = 0;
-    const auto advanceTo = [&](const Vec3& point) {
+    const auto advanceTo = [&](const Vector3& point) {
         const auto found = std::find(points.begin() + static_cast<std::ptrdiff_t>(next), points.end(), point);
         if (found != points.end()) next = static_cast<std::size_t>(found - points.begin());
         return next;
@@ -64,7 +64,7 @@ ReportPage::Mesh makeMesh(int body, const SimTK::Transform& X_BS, const SurfaceM
 
 SceneRecorder::SceneRecorder(const models::ModelDescription& description, const models::BuiltModel& bodies,
                              const std::vector<DrawnPath>& paths)
-    : m_up(description.gravity.isZero() ? Vec3(Vec3::UnitY()) : Vec3(-description.gravity.normalized())),
+    : m_up(description.gravity.isZero() ? Vector3(Vector3::UnitY()) : Vector3(-description.gravity.normalized())),
       m_paths(paths) {
     for (std::size_t path = 0; path < m_paths.size(); ++path) {
         m_witnessesOfPath.emplace_back();

@@ -42,7 +42,7 @@ private:
         SimTK::Transform X_BS;
         std::shared_ptr<const Surface> surface;
         std::string name;
-        std::vector<Vec3> touched_S;  ///< where paths have touched it
+        std::vector<Vector3> touched_S;  ///< where paths have touched it
     };
     struct Witness {
         std::size_t path = 0;
@@ -54,7 +54,7 @@ private:
                             const models::BoundWrap& wrap);
     void recordPath(std::size_t path, const models::CorePath& core, ReportPage::Frame& frame);
 
-    Vec3 m_up;
+    Vector3 m_up;
     std::vector<DrawnPath> m_paths;
     std::vector<Obstacle> m_obstacles;
     std::vector<std::size_t> m_objects;  ///< of the description, in the order of m_obstacles

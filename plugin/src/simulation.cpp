@@ -260,9 +260,9 @@ private:
                 LineClearance clearance = m_probes[probe++].calcClearance(state);
                 if (!clearance.found) {
                     clearance.distance = clearance.lineCoordinate = kNaN;
-                    clearance.C = {Vec3::Constant(kNaN), Vec2::Constant(kNaN), 0};
+                    clearance.C = {Vector3::Constant(kNaN), Vector2::Constant(kNaN), 0};
                 }
-                const Vec3& C = clearance.C.p;
+                const Vector3& C = clearance.C.p;
                 row.insert(row.end(), {clearance.distance, clearance.lineCoordinate, C.x(), C.y(), C.z()});
                 if (isParametric) row.insert(row.end(), {clearance.C.uv[0], clearance.C.uv[1]});
             });

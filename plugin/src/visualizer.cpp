@@ -42,7 +42,7 @@ std::vector<fs::path> listFolders() {
 
 SimTK::DecorativeMesh makeDecoration(const ReportPage::Mesh& mesh) {
     SimTK::PolygonalMesh polygons;
-    for (const Vec3& point : mesh.points_M) polygons.addVertex(toSimTK(point));
+    for (const Vector3& point : mesh.points_M) polygons.addVertex(toSimTK(point));
     for (const auto& triangle : mesh.triangles) polygons.addFace(SimTK::Array_<int>{triangle.begin(), triangle.end()});
     return SimTK::DecorativeMesh(polygons);
 }

@@ -52,7 +52,7 @@ using namespace SimTK;
 Answer simulate(double time) {
     MultibodySystem system;
     SimbodyMatterSubsystem matter(system);
-    tautline::CableSubsystem cables(system);
+    tautline::CablePathSubsystem cables(system);
     GeneralForceSubsystem forces(system);
     Force::Gravity(forces, matter, -YAxis, 9.81);
     const Body::Rigid body(MassProperties(1, Vec3(0), UnitInertia(0.01)));

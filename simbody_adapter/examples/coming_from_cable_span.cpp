@@ -49,7 +49,7 @@ using namespace SimTK;
 Answer ask() {
     MultibodySystem system;
     SimbodyMatterSubsystem matter(system);
-    tautline::CableSubsystem cables(system);
+    tautline::CablePathSubsystem cables(system);
     const Body::Rigid body(MassProperties(1, Vec3(0), UnitInertia(1)));
     MobilizedBody::Slider slider(matter.Ground(), Transform(Rotation(Pi / 2, ZAxis), Vec3(0)), body,
                                  Transform(Rotation(Pi / 2, ZAxis)));

@@ -11,7 +11,7 @@ int main() {
     MultibodySystem system;
     SimbodyMatterSubsystem matter(system);
     GeneralForceSubsystem forces(system);
-    tautline::CableSubsystem cables(system);
+    tautline::CablePathSubsystem cables(system);
     Force::Gravity(forces, matter, -YAxis, 9.81);
     const Body::Rigid bone(MassProperties(1.5, Vec3(0), UnitInertia(0.01)));
     MobilizedBody::Pin forearm(matter.Ground(), Vec3(0), bone, Vec3(0, 0.15, 0));

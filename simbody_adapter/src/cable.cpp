@@ -2,7 +2,7 @@
 #include "tautline/simbody/cable.h"
 
 #include "cable_impl.h"
-#include "cable_subsystem_impl.h"
+#include "cable_path_subsystem_impl.h"
 #include "tautline/error.h"
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/simbody/contact_geometry_surface.h"
@@ -50,9 +50,9 @@ SimTK::MobilizedBodyIndex CableBody::findIndex(const SimTK::SimbodyMatterSubsyst
     return m_index;
 }
 
-Cable::Cable(CableSubsystem& cables, const CableBody& originBody, const SimTK::Vec3& originStation_B,
+Cable::Cable(CablePathSubsystem& cables, const CableBody& originBody, const SimTK::Vec3& originStation_B,
              const CableBody& insertionBody, const SimTK::Vec3& insertionStation_B, std::string name) {
-    CableSubsystemImpl& owner = cables.updImpl();
+    CablePathSubsystemImpl& owner = cables.updImpl();
     const SimTK::MobilizedBodyIndex first = originBody.findIndex(owner.getMatter(), name);
     const SimTK::MobilizedBodyIndex last = insertionBody.findIndex(owner.getMatter(), name);
     require(originStation_B.isFinite() && insertionStation_B.isFinite(), "cable '", name,
@@ -207,9 +207,9 @@ CableIndex Cable::getCableIndex() const {
     return get().getIndex();
 }
 
-const CableSubsystem& Cable::getSubsystem() const {
+const CablePathSubsystem& Cable::getSubsystem() const {
     // The System's own handle is a plain Subsystem; ours adds no data to it.
-    return static_cast<const CableSubsystem&>(get().getSubsystemImpl().getOwnerSubsystemHandle());
+    return static_cast<const CablePathSubsystem&>(get().getSubsystemImpl().getOwnerSubsystemHandle());
 }
 
 const SimTK::SimbodyMatterSubsystem& Cable::getMatterSubsystem() const {
@@ -380,7 +380,7 @@ bool Cable::getContactFrames(const State& state, CableElementIndex obstacle, Sim
     if (!found) return false;
     const Pose& X_GS = get().getPose(state).X_GE[obstacle];
     const auto calcFrame = [&](const DarbouxFrame& frame) {
-        Mat3 R_SP;
+        Matrix3 R_SP;
         R_SP << frame.t, frame.N, frame.B;
         return toTransform(X_GS * Pose(R_SP, frame.x));
     };
@@ -419,10 +419,10 @@ Real Cable::getWitness(const State& state, CableElementIndex obstacle) const {
 
 std::vector<SimTK::Vec3> Cable::calcDrawingPoints(const State& state, Real maxAngle) const {
     const PathSolution& path = get().getPath(state, "Cable::calcDrawingPoints()");
-    std::vector<Vec3> points_G;
+    std::vector<Vector3> points_G;
     tautline::calcDrawingPoints(path, get().getProblem(), get().getPose(state), maxAngle, points_G);
     std::vector<SimTK::Vec3> result;
-    for (const Vec3& point_G : points_G) result.push_back(toSimTK(point_G));
+    for (const Vector3& point_G : points_G) result.push_back(toSimTK(point_G));
     return result;
 }
 

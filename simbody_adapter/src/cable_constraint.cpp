@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "cable_subsystem_impl.h"
+#include "cable_path_subsystem_impl.h"
 #include "tautline/error.h"
 
 namespace tautline {
@@ -48,7 +48,7 @@ public:
             "the constraint on cable '%s' is enabled, but the cable is disabled in this State: disable "
             "the constraint too",
             m_cable.getName().c_str());
-        dynamic_cast<const CableSubsystemImpl&>(m_cable.getSubsystem().getSubsystemGuts())
+        dynamic_cast<const CablePathSubsystemImpl&>(m_cable.getSubsystem().getSubsystemGuts())
             .realizePositionOfPlacedBodies(state);
         perr[0] = m_cable.getLength(state) - m_length;
     }

@@ -29,14 +29,14 @@ Transform calcCylinderPose(const Transform& X_BS) {
 
 SimTK::PolygonalMesh toPolygonalMesh(const SurfaceMesh& facets) {
     SimTK::PolygonalMesh mesh;
-    for (const Vec3& point : facets.points) mesh.addVertex(toSimTK(point));
+    for (const Vector3& point : facets.points) mesh.addVertex(toSimTK(point));
     for (const std::array<int, 4>& face : facets.faces) mesh.addFace(Array_<int>(face.begin(), face.end()));
     return mesh;
 }
 
 /** Where the cable touches an obstacle, in S. */
-std::vector<Vec3> getTouchedPoints(const ObstacleContact& contact) {
-    std::vector<Vec3> points;
+std::vector<Vector3> getTouchedPoints(const ObstacleContact& contact) {
+    std::vector<Vector3> points;
     for (int i = 0; i < contact.getNumArcs(); ++i)
         for (const DarbouxFrame& end : {contact.getArc(i).geodesic.P, contact.getArc(i).geodesic.Q})
             points.push_back(end.x);
@@ -92,10 +92,10 @@ CableDecorations& CableDecorations::setExtent(SimTK::Real sizes) {
 
 /** A new mesh is laid where the cable touches the surface beyond what is drawn. */
 const SimTK::PolygonalMesh& CableDecorations::findMesh(const std::shared_ptr<const Surface>& surface,
-                                                       const std::vector<Vec3>& touched_S) {
+                                                       const std::vector<Vector3>& touched_S) {
     const auto [found, isNew] = m_pictures.try_emplace(surface);
     Picture& picture = found->second;
-    const auto isDrawn = [&picture](const Vec3& p) { return picture.box.contains(p); };
+    const auto isDrawn = [&picture](const Vector3& p) { return picture.box.contains(p); };
     if (isNew || !std::all_of(touched_S.begin(), touched_S.end(), isDrawn)) {
         // Together with those before: obstacles may share the surface.
         picture.touched_S.insert(picture.touched_S.end(), touched_S.begin(), touched_S.end());
@@ -109,12 +109,12 @@ const SimTK::PolygonalMesh& CableDecorations::findMesh(const std::shared_ptr<con
 DecorativeGeometry CableDecorations::calcPicture(const Cable& cable, CableElementIndex obstacle, const State& state) {
     const std::shared_ptr<const Surface> surface = cable.getSurface(obstacle);
     const Transform& X_BS = cable.getElementFrame(obstacle);
-    const std::vector<Vec3> touched_S = getTouchedPoints(cable.getSolution(state).contacts[obstacle]);
+    const std::vector<Vector3> touched_S = getTouchedPoints(cable.getSolution(state).contacts[obstacle]);
     if (const auto* sphere = dynamic_cast<const Sphere*>(surface.get()))
         return SimTK::DecorativeSphere(sphere->getRadius()).setTransform(X_BS);
     if (const auto* cylinder = dynamic_cast<const Cylinder*>(surface.get())) {
         SimTK::Real halfLength = m_extent * cylinder->getRadius();
-        for (const Vec3& p : touched_S) halfLength = std::max(halfLength, std::abs(p.z()));
+        for (const Vector3& p : touched_S) halfLength = std::max(halfLength, std::abs(p.z()));
         return SimTK::DecorativeCylinder(cylinder->getRadius(), halfLength).setTransform(calcCylinderPose(X_BS));
     }
     if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(surface.get()))

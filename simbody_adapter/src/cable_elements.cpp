@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cable_subsystem_impl.h"
+#include "cable_path_subsystem_impl.h"
 #include "tautline/error.h"
 #include "tautline/simbody/conversions.h"
 
@@ -43,8 +43,8 @@ namespace {
 /** A rotation is taken as it is, never re-orthogonalized: what is none would shear and scale a surface. */
 bool isRotation(const SimTK::Rotation& R) {
     constexpr Real kRounding = 1e-8;
-    const Mat3 M = toEigen(R.asMat33());
-    return (M.transpose() * M - Mat3::Identity()).norm() < kRounding && M.determinant() > 0;
+    const Matrix3 M = toEigen(R.asMat33());
+    return (M.transpose() * M - Matrix3::Identity()).norm() < kRounding && M.determinant() > 0;
 }
 
 }  // namespace
@@ -143,14 +143,14 @@ void CableElements::calcVelocities(const PathPose& pose, const std::vector<Spati
         const SpatialVec& V = V_GB[element.body];
         V_GE[e] = {toEigen(V[0]), toEigen(V[1])};
         if (element.moving) continue;
-        const Vec3 p_BE_E = toEigen(~element.X_BE.R() * element.X_BE.p());
+        const Vector3 p_BE_E = toEigen(~element.X_BE.R() * element.X_BE.p());
         V_GE[e].v += V_GE[e].w.cross(pose.X_GE[e].R * p_BE_E);
     }
 }
 
-Vec3 CableElements::calcCentripetalAcceleration(const State& state, int element, const Vec3& w) const {
+Vector3 CableElements::calcCentripetalAcceleration(const State& state, int element, const Vector3& w) const {
     const CableElement& at = m_elements[element];
-    const Vec3 p_BE_G = toEigen(getBody(at).getBodyRotation(state) * at.X_BE.p());
+    const Vector3 p_BE_G = toEigen(getBody(at).getBodyRotation(state) * at.X_BE.p());
     return w.cross(w.cross(p_BE_G));
 }
 
@@ -171,7 +171,7 @@ void CableElements::addBodyForces(const State& state, const PathPose& pose, cons
 void CableElements::addForcesAtGround(const PathPose& pose, const std::vector<SpatialForce>& F_GE,
                                       std::vector<BodyForceAtGround>& forces) const {
     for (std::size_t e = 0; e < m_elements.size(); ++e) {
-        const Vec3 moment_G = F_GE[e].moment + pose.X_GE[e].p.cross(F_GE[e].force);
+        const Vector3 moment_G = F_GE[e].moment + pose.X_GE[e].p.cross(F_GE[e].force);
         const SpatialVec force(toSimTK(moment_G), toSimTK(F_GE[e].force));
         if (!forces.empty() && forces.back().body == m_elements[e].body)
             forces.back().force += force;

@@ -31,7 +31,7 @@ forces on them act on those. Per-element arrays have this order; E is an element
 class CableElements {
 public:
     /** @param cableName   for messages */
-    CableElements(const CableSubsystemImpl& cables, std::string cableName)
+    CableElements(const CablePathSubsystemImpl& cables, std::string cableName)
         : m_cables(cables), m_cableName(std::move(cableName)) {}
 
     void setEnds(CableElement origin, CableElement insertion);
@@ -66,7 +66,7 @@ public:
                         std::vector<SpatialVelocity>& V_GE) const;
     /** What the turning of its body gives an element's origin [m/s^2], in ground, without that of the body's origin.
     @param w   angular velocity of the body in ground [rad/s] */
-    Vec3 calcCentripetalAcceleration(const SimTK::State& state, int element, const Vec3& w) const;
+    Vector3 calcCentripetalAcceleration(const SimTK::State& state, int element, const Vector3& w) const;
 
     /** Of one element on its body, in ground [N m, N]. */
     SimTK::SpatialVec calcForceAboutBodyOrigin(const SimTK::State& state, const PathPose& pose,
@@ -89,7 +89,7 @@ private:
     void check(const CableElement& element) const;
     const SimTK::MobilizedBody& getBody(const CableElement& element) const;
 
-    const CableSubsystemImpl& m_cables;
+    const CablePathSubsystemImpl& m_cables;
     std::string m_cableName;
     std::vector<CableElement> m_elements;
 };

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cable_subsystem_impl.h"
+#include "cable_path_subsystem_impl.h"
 #include "contact_event_handler.h"
 #include "same_pose.h"
 #include "tautline/error.h"
@@ -65,7 +65,7 @@ bool isSmoothWitness(const ObstacleContact& contact) {
 
 }  // namespace
 
-CableImpl::CableImpl(CableSubsystemImpl& cables, CableIndex index, std::string name)
+CableImpl::CableImpl(CablePathSubsystemImpl& cables, CableIndex index, std::string name)
     : m_cables(cables), m_index(index), m_name(std::move(name)), m_elements(cables, m_name) {}
 
 void CableImpl::setEnds(CableElement origin, CableElement insertion) {
@@ -267,10 +267,10 @@ std::vector<SimTK::Vec3> CableImpl::calcResampledArc(const State& state, CableEl
     require(count >= 2, "cable '", m_name, "': an arc is resampled to at least 2 points, not to ", count);
     require(found, "cable '", m_name, "': obstacle '", m_elements[obstacle].name, "' is not touched in an arc ", arc,
             " that could be resampled");
-    std::vector<Vec3> arc_S;
+    std::vector<Vector3> arc_S;
     sampleGeodesic(*m_elements[obstacle].surface, found->start, m_options.geodesics, count, arc_S);
     std::vector<SimTK::Vec3> points_G;
-    for (const Vec3& p_S : arc_S) points_G.push_back(toSimTK(getPose(state).X_GE[obstacle] * p_S));
+    for (const Vector3& p_S : arc_S) points_G.push_back(toSimTK(getPose(state).X_GE[obstacle] * p_S));
     return points_G;
 }
 
@@ -290,13 +290,13 @@ std::vector<SimTK::Vec3> CableImpl::calcResampledPoints(const State& state, int 
         passed += length;
     };
     for (const StraightSegment& line : segments) {
-        addPoints(line.length, [&](Real s) { return toSimTK(Vec3(line.A + s * line.e)); });
+        addPoints(line.length, [&](Real s) { return toSimTK(Vector3(line.A + s * line.e)); });
         const ContactArc& arc = path.getArcAfter(line);
         if (!m_elements[line.toElement].surface || !(arc.start.length > 0)) continue;
         addPoints(arc.start.length, [&](Real s) {
             GeodesicStart part = arc.start;
             part.length = s;
-            Geodesic geodesic;
+            ShotGeodesic geodesic;
             m_elements[line.toElement].surface->shootGeodesic(part, m_options.geodesics, geodesic);
             return toSimTK(getPose(state).X_GE[line.toElement] * geodesic.Q.x);
         });
@@ -339,7 +339,7 @@ Real CableImpl::calcLengthAccelerationBias(const State& state, const CablePath& 
     for (int e = 0; e < m_elements.size(); ++e) {
         const SpatialForce &F = path.forces[e], &FRate = workspace->variation.forceRate[e];
         const SpatialVelocity& V = V_GE[e];
-        const Vec3 centripetal = m_elements.calcCentripetalAcceleration(state, e, V.w);
+        const Vector3 centripetal = m_elements.calcCentripetalAcceleration(state, e, V.w);
         bias -= FRate.force.dot(V.v) + FRate.moment.dot(V.w) + F.force.dot(centripetal);
     }
     return bias;
@@ -501,7 +501,7 @@ std::string CableImpl::explainStatus(const State& state) const {
 }
 
 void CableImpl::countStep(const State& state) const {
-    const double pathError = getPath(state, "CableSubsystem::countStep()").pathError;
+    const double pathError = getPath(state, "CablePathSubsystem::countStep()").pathError;
     m_counters.countStep(calcStatus(state) != PathStatus::Solved, pathError);
 }
 

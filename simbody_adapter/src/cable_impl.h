@@ -18,7 +18,7 @@ namespace tautline {
 /** What stands behind a Cable handle. */
 class CableImpl {
 public:
-    CableImpl(CableSubsystemImpl& cables, CableIndex index, std::string name);
+    CableImpl(CablePathSubsystemImpl& cables, CableIndex index, std::string name);
     CableImpl(const CableImpl&) = delete;
 
     void setEnds(CableElement origin, CableElement insertion);
@@ -32,7 +32,7 @@ public:
 
     const std::string& getName() const { return m_name; }
     CableIndex getIndex() const { return m_index; }
-    const CableSubsystemImpl& getSubsystemImpl() const { return m_cables; }
+    const CablePathSubsystemImpl& getSubsystemImpl() const { return m_cables; }
     const PathSolverOptions& getOptions() const { return m_options; }
     bool isDisabledByDefault() const { return m_isDisabledByDefault; }
     /** With that of the subsystem where the cable has none of its own. */
@@ -119,7 +119,7 @@ private:
     void report(const std::vector<PathEvent>& events, const PathSolution& before, const TrackedPath& after,
                 const std::vector<SpatialVelocity>& V_GE) const;
 
-    CableSubsystemImpl& m_cables;
+    CablePathSubsystemImpl& m_cables;
     CableIndex m_index;
     std::string m_name;
     CableElements m_elements;

@@ -22,7 +22,7 @@ Real checkInterval(Real interval) {
 
 }  // namespace
 
-CableReporter::CableReporter(const CableSubsystem& cables, Real interval)
+CableReporter::CableReporter(const CablePathSubsystem& cables, Real interval)
     : PeriodicEventReporter(checkInterval(interval)), m_cables(cables) {}
 
 void CableReporter::addForce(const CableForce& force) {

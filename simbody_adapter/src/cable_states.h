@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tautline/paths/path_tracker.h"
-#include "tautline/simbody/cable_subsystem.h"
+#include "tautline/simbody/cable_path_subsystem.h"
 
 namespace tautline {
 

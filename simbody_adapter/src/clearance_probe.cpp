@@ -14,8 +14,8 @@ constexpr double kRounding = 1e-7;
 LineClearance watchAtMiddle(const Surface& surface, const GeodesicStart& arc) {
     GeodesicStart half = arc;
     half.length *= 0.5;
-    Geodesic geodesic;
-    surface.shootGeodesic(half, GeodesicOptions(), geodesic);
+    ShotGeodesic geodesic;
+    surface.shootGeodesic(half, ShootingOptions(), geodesic);
     LineClearance clearance;
     clearance.keptC = geodesic.endPoint;
     clearance.keptN = geodesic.Q.N;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cable_subsystem_impl.h"
+#include "cable_path_subsystem_impl.h"
 
 namespace tautline {
 namespace {

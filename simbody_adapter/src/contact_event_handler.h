@@ -11,7 +11,7 @@ still holds: that it can be found with its contacts kept, and is no saddle. The 
 computed with the path. (One for all cables would cost a copy of a State less, and event finding more: it has a kink
 wherever another cable's is the lowest.)
 
-Added to the System, not allocated in the CableSubsystem: Simbody 3.7 mixes up the witnesses of a subsystem of one's own
+Added to the System, not allocated in the CablePathSubsystem: Simbody 3.7 mixes up the witnesses of a subsystem of one's own
 with those of a user's handlers at later stages. */
 class ContactEventHandler : public SimTK::TriggeredEventHandler {
 public:
@@ -53,12 +53,12 @@ scheduled events whenever it goes on, and gets one at once where the paths were 
 realized, and do not hold now; a moment later, since events at one time come once, if there was one already. */
 class SettlingEventHandler : public SimTK::ScheduledEventHandler {
 public:
-    explicit SettlingEventHandler(const CableSubsystemImpl& cables) : m_cables(cables) {}
+    explicit SettlingEventHandler(const CablePathSubsystemImpl& cables) : m_cables(cables) {}
     SimTK::Real getNextEventTime(const SimTK::State& state, bool includeCurrentTime) const override;
     void handleEvent(SimTK::State& state, SimTK::Real accuracy, bool& shouldTerminate) const override;
 
 private:
-    const CableSubsystemImpl& m_cables;
+    const CablePathSubsystemImpl& m_cables;
 };
 
 /** Stops a step where the condition of a point changes, since the length jumps there, and lets the contacts that

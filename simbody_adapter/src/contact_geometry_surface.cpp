@@ -8,7 +8,7 @@
 #include "tautline/simbody/conversions.h"
 #include "tautline/surfaces/cylinder.h"
 #include "tautline/surfaces/ellipsoid.h"
-#include "tautline/surfaces/plane.h"
+#include "tautline/surfaces/half_space.h"
 #include "tautline/surfaces/scaled_surface.h"
 #include "tautline/surfaces/sphere.h"
 #include "tautline/surfaces/torus.h"
@@ -18,7 +18,7 @@ namespace tautline {
 namespace {
 
 /** How far a surface is from a point next to it [m]. */
-double calcOffset(const ContactGeometrySurface& surface, const Vec3& p_S) {
+double calcOffset(const ContactGeometrySurface& surface, const Vector3& p_S) {
     const ImplicitValue value = surface.calcImplicit(p_S);
     return std::abs(value.f) / value.gradient.norm();
 }
@@ -26,7 +26,7 @@ double calcOffset(const ContactGeometrySurface& surface, const Vec3& p_S) {
 /** The smallest radius of curvature where the way down from (1, 1, 1) meets the surface: a length that goes
 with the geometry's own. */
 double calcSmallestRadius(const Surface& surface) {
-    const DarbouxFrame frame = surface.calcFrame(surface.findSurfacePoint(Vec3::Ones()), Vec3(1, -2, 0.5));
+    const DarbouxFrame frame = surface.calcFrame(surface.findSurfacePoint(Vector3::Ones()), Vector3(1, -2, 0.5));
     // The eigenvalues of the second fundamental form lie within its row sums.
     return 1 / std::max(std::abs(frame.kappaN) + std::abs(frame.tauG), std::abs(frame.kappaB) + std::abs(frame.tauG));
 }
@@ -50,7 +50,8 @@ enough. */
 double ContactGeometrySurface::findSize() {
     constexpr double kLargest = 1e12, kOnSurface = 1e-6;
     for (m_size = 1; m_size < kLargest; m_size *= 10)
-        if (calcOffset(*this, findSurfacePoint(Vec3::Ones()).p) < kOnSurface * m_size) return calcSmallestRadius(*this);
+        if (calcOffset(*this, findSurfacePoint(Vector3::Ones()).p) < kOnSurface * m_size)
+            return calcSmallestRadius(*this);
     return kNaN;
 }
 
@@ -64,11 +65,11 @@ double ContactGeometrySurface::calcDomainMargin(const SurfacePoint& point) const
     return m_heightMap ? m_heightMap->calcDomainMargin({point.p, point.p.head<2>(), 0}) : kInfinity;
 }
 
-double ContactGeometrySurface::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
+double ContactGeometrySurface::calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const {
     return m_heightMap ? m_heightMap->calcHeightAndNormal(p_S, N_S) : ImplicitSurface::calcHeightAndNormal(p_S, N_S);
 }
 
-ImplicitValue ContactGeometrySurface::calcImplicit(const Vec3& p_S) const {
+ImplicitValue ContactGeometrySurface::calcImplicit(const Vector3& p_S) const {
     if (m_heightMap) return m_heightMap->calcImplicit(p_S);
     const SimTK::Vec3 p = toSimTK(p_S);
     return {-m_geometry.calcSurfaceValue(p), -toEigen(m_geometry.calcSurfaceGradient(p)),
@@ -79,9 +80,9 @@ namespace {
 
 /** Simbody's half space is x > 0. */
 std::shared_ptr<const Surface> makePlane(double size) {
-    Mat3 turned;  // z to -x, x to z
+    Matrix3 turned;  // z to -x, x to z
     turned << 0, 0, -1, 0, 1, 0, 1, 0, 0;
-    return makeScaledSurface(std::make_shared<Plane>(size), turned);
+    return makeScaledSurface(std::make_shared<HalfSpace>(size), turned);
 }
 
 }  // namespace

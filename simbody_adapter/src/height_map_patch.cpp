@@ -11,7 +11,7 @@ namespace {
 
 ParameterDomain calcDomain(const SimTK::BicubicSurface& surface) {
     const SimTK::Vec2 min = surface.getMinXY(), max = surface.getMaxXY();
-    return {Vec2(min[0], min[1]), Vec2(max[0], max[1])};
+    return {Vector2(min[0], min[1]), Vector2(max[0], max[1])};
 }
 
 /** The cell of a coordinate, and where in it. */
@@ -61,7 +61,7 @@ HeightMapPatch::HeightMapPatch(const SimTK::BicubicSurface& surface) : PatchShap
     measure();
 }
 
-void HeightMapPatch::calcPartials(const Vec2& uv, PatchPartials& partials) const {
+void HeightMapPatch::calcPartials(const Vector2& uv, PatchPartials& partials) const {
     const Place x(m_x, uv.x()), y(m_y, uv.y());
     const Coefficients& cell = m_cells[x.cell + y.cell * (m_x.size() - 1)];
     const Eigen::Matrix3d z = x.calcPowers() * cell * y.calcPowers().transpose();
@@ -72,12 +72,12 @@ void HeightMapPatch::calcPartials(const Vec2& uv, PatchPartials& partials) const
         for (int j = 0; j < 3; ++j) partials(2, 3 * i + j) = z(i, j);
 }
 
-ImplicitValue HeightMapPatch::calcImplicit(const Vec3& p_S) const {
+ImplicitValue HeightMapPatch::calcImplicit(const Vector3& p_S) const {
     const ParametricValue s = calcParametric(p_S.head<2>(), 0);
-    Mat3 hessian = Mat3::Zero();
+    Matrix3 hessian = Matrix3::Zero();
     hessian(0, 0) = -s.xuu.z(), hessian(1, 1) = -s.xvv.z();
     hessian(0, 1) = hessian(1, 0) = -s.xuv.z();
-    return {p_S.z() - s.x.z(), Vec3(-s.xu.z(), -s.xv.z(), 1), hessian};
+    return {p_S.z() - s.x.z(), Vector3(-s.xu.z(), -s.xv.z(), 1), hessian};
 }
 
 }  // namespace tautline

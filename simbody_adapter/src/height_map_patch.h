@@ -17,10 +17,10 @@ public:
     explicit HeightMapPatch(const SimTK::BicubicSurface& surface);
 
     std::string getDescription() const override { return "height_map"; }
-    void calcPartials(const Vec2& uv, PatchPartials& partials) const;
+    void calcPartials(const Vector2& uv, PatchPartials& partials) const;
 
     /** f = z - height(x, y). */
-    ImplicitValue calcImplicit(const Vec3& p_S) const;
+    ImplicitValue calcImplicit(const Vector3& p_S) const;
 
 private:
     /** Row i, column j: of s^i t^j, s and t from 0 to 1 along x and y of the cell. */

@@ -12,21 +12,21 @@
 #include "tautline/error.h"
 #include "tautline/paths/path_explanation.h"
 #include "tautline/surfaces/capsule.h"
-#include "tautline/surfaces/plane.h"
+#include "tautline/surfaces/half_space.h"
 
 namespace tautline::testing {
 namespace {
 
-Pose turned(double angle, const Vec3& axis, const Vec3& p) {
+Pose turned(double angle, const Vector3& axis, const Vector3& p) {
     return {Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(), p};
 }
 
 std::shared_ptr<const Blend> makeThreeBodies(double radius) {
     return std::make_shared<Blend>(
         std::vector<BlendPart>{
-            {std::make_shared<Sphere>(0.5), Pose(Vec3(-0.4, 0.1, 0))},
-            {std::make_shared<Ellipsoid>(Vec3(0.6, 0.3, 0.4)), turned(0.4, Vec3(1, 2, 3), Vec3(0.3, 0, 0.1))},
-            {std::make_shared<Cylinder>(0.2), turned(1.1, Vec3(1, 0, 0), Vec3(0, 0.3, 0.2))}},
+            {std::make_shared<Sphere>(0.5), Pose(Vector3(-0.4, 0.1, 0))},
+            {std::make_shared<Ellipsoid>(Vector3(0.6, 0.3, 0.4)), turned(0.4, Vector3(1, 2, 3), Vector3(0.3, 0, 0.1))},
+            {std::make_shared<Cylinder>(0.2), turned(1.1, Vector3(1, 0, 0), Vector3(0, 0.3, 0.2))}},
         radius);
 }
 
@@ -37,12 +37,12 @@ TEST(Blend, HasTheDerivativesOfItsDifferences) {
     const auto blend = makeThreeBodies(0.1);
     constexpr double h = 1e-5;
     for (int i = 0; i < 300; ++i) {
-        const Vec3 p = random.vector(1.2);
+        const Vector3 p = random.vector(1.2);
         const ImplicitValue at = blend->calcImplicit(p);
         if (at.f < -0.1) continue;  // near the medial axes
         for (int k = 0; k < 3; ++k) {
-            const ImplicitValue ahead = blend->calcImplicit(p + h * Vec3::Unit(k));
-            const ImplicitValue back = blend->calcImplicit(p - h * Vec3::Unit(k));
+            const ImplicitValue ahead = blend->calcImplicit(p + h * Vector3::Unit(k));
+            const ImplicitValue back = blend->calcImplicit(p - h * Vector3::Unit(k));
             EXPECT_NEAR(at.gradient[k], (ahead.f - back.f) / (2 * h), 1e-8);
             // Where the third derivatives jump, by 2/k^2 times a gradient's cube, differences are off by h as much.
             EXPECT_LT((at.hessian.col(k) - (ahead.gradient - back.gradient) / (2 * h)).norm(), 2 * h);
@@ -57,7 +57,7 @@ TEST(Blend, IsTheNearestPartWhereNoOtherIsNear) {
     SeededRandom random(6);
     int numAlone = 0, numBlended = 0;
     for (int i = 0; i < 500; ++i) {
-        const Vec3 p = random.vector(1.2);
+        const Vector3 p = random.vector(1.2);
         std::vector<double> distances;
         for (const BlendPart& part : blend->getParts()) {
             const Body body{part.surface.get(), part.X_SP};
@@ -83,12 +83,12 @@ TEST(Blend, IsTheNearestPartWhereNoOtherIsNear) {
 TEST(Blend, OfPlanesAtRightAnglesHasItsRadiusInTheMiddle) {
     constexpr double r = 0.3;
     // Outward are x + z and -x + z, turned planes through the y axis.
-    const auto plane = std::make_shared<Plane>(1.0);
-    const Blend blend(
-        {{plane, turned(kPi / 4, Vec3::UnitY(), Vec3::Zero())}, {plane, turned(-kPi / 4, Vec3::UnitY(), Vec3::Zero())}},
-        r);
-    const SurfacePoint bottom = blend.findSurfacePoint(Vec3(0, 0.2, 0.1));
-    const DarbouxFrame frame = blend.calcFrame(bottom, Vec3::UnitX());
+    const auto plane = std::make_shared<HalfSpace>(1.0);
+    const Blend blend({{plane, turned(kPi / 4, Vector3::UnitY(), Vector3::Zero())},
+                       {plane, turned(-kPi / 4, Vector3::UnitY(), Vector3::Zero())}},
+                      r);
+    const SurfacePoint bottom = blend.findSurfacePoint(Vector3(0, 0.2, 0.1));
+    const DarbouxFrame frame = blend.calcFrame(bottom, Vector3::UnitX());
     EXPECT_NEAR(bottom.p.z(), 2 * std::sqrt(2) * r / 6 * std::sqrt(2), 1e-14);
     EXPECT_NEAR(frame.kappaN, 1 / r, 1e-12);  // hollow
     EXPECT_NEAR(frame.kappaB, 0, 1e-12);
@@ -101,12 +101,12 @@ TEST(Blend, IsBridgedFromBodyToBody) {
         SCOPED_TRACE(radius);
         const auto cylinder = std::make_shared<Cylinder>(r);
         PathScene scene;
-        scene.point(Vec3(-1.5, 0.1, -0.3));
-        scene.obstacle(
-            std::make_shared<Blend>(
-                std::vector<BlendPart>{{cylinder, Pose(Vec3(-d, 0, 0))}, {cylinder, Pose(Vec3(d, 0, 0))}}, radius),
-            Pose());
-        scene.point(Vec3(1.4, 0.05, 0.5));
+        scene.point(Vector3(-1.5, 0.1, -0.3));
+        scene.obstacle(std::make_shared<Blend>(std::vector<BlendPart>{{cylinder, Pose(Vector3(-d, 0, 0))},
+                                                                      {cylinder, Pose(Vector3(d, 0, 0))}},
+                                               radius),
+                       Pose());
+        scene.point(Vector3(1.4, 0.05, 0.5));
         const PathSolution path = scene.solve();
         ASSERT_EQ(path.status, PathStatus::Solved) << explainStatus(scene.problem, scene.pose, path);
         ASSERT_EQ(path.contacts[1].getNumArcs(), 2);
@@ -127,17 +127,17 @@ TEST(Blend, HoldsAStringInItsGroove) {
         SCOPED_TRACE(depth);
         const auto sphere = std::make_shared<Sphere>(0.025);
         PathScene scene;
-        scene.point(Vec3(0.03, 0.2, 0));
-        scene.obstacle(
-            std::make_shared<Blend>(
-                std::vector<BlendPart>{{sphere, Pose(Vec3(0, 0, 0.018))}, {sphere, Pose(Vec3(0, 0, -0.018))}}, 0.005),
-            Pose(), Vec3(0.025, 0, 0));
-        scene.point(Vec3(0.03 - depth, -0.2, 0));
+        scene.point(Vector3(0.03, 0.2, 0));
+        scene.obstacle(std::make_shared<Blend>(std::vector<BlendPart>{{sphere, Pose(Vector3(0, 0, 0.018))},
+                                                                      {sphere, Pose(Vector3(0, 0, -0.018))}},
+                                               0.005),
+                       Pose(), Vector3(0.025, 0, 0));
+        scene.point(Vector3(0.03 - depth, -0.2, 0));
         const PathSolution path = scene.solve();
         ASSERT_EQ(path.status, PathStatus::Solved) << explainStatus(scene.problem, scene.pose, path);
         EXPECT_TRUE(path.contacts[1].isTouched);
         EXPECT_LT(std::abs(path.contacts[1].geodesic.P.x.z()), 1e-9);  // in the plane between the spheres
-        std::vector<Vec3> course;
+        std::vector<Vector3> course;
         calcDrawingPoints(path, scene.problem, scene.pose, 0.1, course);
         TautPolyline polyline({{scene.problem.getElement(1).surface.get(), Pose()}}, course, 400);
         ASSERT_TRUE(polyline.relax(1e-8, 20000));
@@ -159,9 +159,10 @@ TEST(Blend, RefusesWhatIsNoBlend) {
     EXPECT_NE(refusal({{nullptr, Pose()}}, 0.1).find("part 0 has no surface"), std::string::npos);
     EXPECT_NE(refusal({{sphere, Pose()}}, 0).find("radius must be positive"), std::string::npos);
     EXPECT_NE(refusal({{sphere, Pose()}}, kNaN).find("radius must be positive"), std::string::npos);
-    EXPECT_NE(refusal({{sphere, Pose(Vec3(kNaN, 0, 0))}}, 0.1).find("pose of part 0"), std::string::npos);
-    EXPECT_NE(refusal({{sphere, Pose()}, {sphere, Pose(-Mat3::Identity(), Vec3::Zero())}}, 0.1).find("part 1 is none"),
-              std::string::npos);
+    EXPECT_NE(refusal({{sphere, Pose(Vector3(kNaN, 0, 0))}}, 0.1).find("pose of part 0"), std::string::npos);
+    EXPECT_NE(
+        refusal({{sphere, Pose()}, {sphere, Pose(-Matrix3::Identity(), Vector3::Zero())}}, 0.1).find("part 1 is none"),
+        std::string::npos);
     EXPECT_EQ(makeBlend({sphere, std::make_shared<Sphere>(2)}, 0.1)->getSize(), 1);
 }
 

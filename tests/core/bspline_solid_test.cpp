@@ -29,9 +29,9 @@ const MeshDistance& getBoneDistance() {
 }
 
 /** Any place from deep inside to three lengths away, most of them near the surface. */
-Vec3 drawPlace(testing::Random& random) {
-    const std::vector<Vec3>& points = getBone().points;
-    const Vec3& near = points[static_cast<std::size_t>(random.integer(0, static_cast<int>(points.size()) - 1))];
+Vector3 drawPlace(testing::Random& random) {
+    const std::vector<Vector3>& points = getBone().points;
+    const Vector3& near = points[static_cast<std::size_t>(random.integer(0, static_cast<int>(points.size()) - 1))];
     return near + random.logUniform(1e-4, 1) * random.unitVector();
 }
 
@@ -41,20 +41,20 @@ TEST(BSplineSolid, HasExactDerivativesNearFarAndBetween) {
     testing::Random random(kSeed);
     int near = 0, between = 0, far = 0;
     for (int i = 0; i < 3000; ++i) {
-        const Vec3 p = drawPlace(random);
+        const Vector3 p = drawPlace(random);
         const ImplicitValue value = solid.calcImplicit(p);
         ++(std::abs(value.f) < grid.blendBegin ? near : std::abs(value.f) < grid.blendEnd ? between : far);
         const double step = 1e-4 * grid.spacing;
         for (int axis = 0; axis < 3; ++axis) {
-            const ImplicitValue up = solid.calcImplicit(p + step * Vec3::Unit(axis));
-            const ImplicitValue down = solid.calcImplicit(p - step * Vec3::Unit(axis));
+            const ImplicitValue up = solid.calcImplicit(p + step * Vector3::Unit(axis));
+            const ImplicitValue down = solid.calcImplicit(p - step * Vector3::Unit(axis));
             EXPECT_NEAR((up.f - down.f) / (2 * step), value.gradient[axis], 1e-6) << p.transpose();
             // Third derivatives have steps at the sides of cells: a difference across one is of first order.
-            const Vec3 bend = (up.gradient - down.gradient) / (2 * step);
+            const Vector3 bend = (up.gradient - down.gradient) / (2 * step);
             EXPECT_LT((bend - value.hessian.col(axis)).norm() * grid.spacing, 1e-3) << p.transpose();
         }
         EXPECT_LE((value.hessian - value.hessian.transpose()).norm(), 1e-14 * value.hessian.norm());
-        Vec3 N;
+        Vector3 N;
         solid.calcHeightAndNormal(p, N);
         EXPECT_NEAR(N.dot(value.gradient), value.gradient.norm(), 1e-14);
     }
@@ -69,7 +69,7 @@ TEST(BSplineSolid, IsTwiceContinuouslyDifferentiableAlongAnyLine) {
     const double h = solid.getGrid().spacing;
     testing::Random random(kSeed);
     for (int line = 0; line < 20; ++line) {
-        const Vec3 from = drawPlace(random), to = drawPlace(random);
+        const Vector3 from = drawPlace(random), to = drawPlace(random);
         const int steps = static_cast<int>((to - from).norm() / (1e-3 * h));
         ImplicitValue before = solid.calcImplicit(from);
         double largest = 0;
@@ -87,7 +87,7 @@ TEST(BSplineSolid, IsOnTheRightSideAndNoFartherThanTwiceTheDistance) {
     const double reach = std::sqrt(3.0) * solid.getGrid().width;  // of the smoothing
     testing::Random random(kSeed);
     for (int i = 0; i < 5000; ++i) {
-        const Vec3 p = drawPlace(random);
+        const Vector3 p = drawPlace(random);
         const double distance = getBoneDistance().calcSignedDistance(p), height = solid.calcHeight(p);
         if (std::abs(distance) < reach) continue;
         EXPECT_EQ(distance > 0, height > 0) << p.transpose();
@@ -100,8 +100,8 @@ TEST(BSplineSolid, IsReachedFromAnywhere) {
     const BSplineSolid& solid = getBone().solid;
     testing::Random random(kSeed);
     for (int i = 0; i < 3000; ++i) {
-        const Vec3 p = drawPlace(random) + (i % 10 == 0 ? random.vector(20) : Vec3::Zero());
-        const Vec3 foot = solid.findSurfacePoint(p).p;
+        const Vector3 p = drawPlace(random) + (i % 10 == 0 ? random.vector(20) : Vector3::Zero());
+        const Vector3 foot = solid.findSurfacePoint(p).p;
         EXPECT_LT(std::abs(solid.calcHeight(foot)), 1e-13) << p.transpose();
         const double distance = getBoneDistance().findNearest(p).distance;
         EXPECT_LT((foot - p).norm(), 1.5 * distance + 3 * solid.getGrid().width) << p.transpose();
@@ -112,28 +112,29 @@ TEST(BSplineSolid, TakesAnyNumbersWithoutACrash) {
     const BSplineSolid& solid = getBone().solid;
     for (const double odd : {kNaN, kInfinity, -kInfinity, 1e300, -1e300, 1e-300})
         for (int axis = 0; axis < 3; ++axis) {
-            Vec3 p(0.01, 0.02, 0.03);
+            Vector3 p(0.01, 0.02, 0.03);
             p[axis] = odd;
             solid.calcImplicit(p);
             EXPECT_EQ(std::isfinite(solid.calcHeight(p)), std::abs(odd) < 1e100);
         }
-    EXPECT_TRUE(std::isfinite(solid.calcHeight(Vec3(1e6, -1e6, 1e6))));
+    EXPECT_TRUE(std::isfinite(solid.calcHeight(Vector3(1e6, -1e6, 1e6))));
 }
 
 /** Non-uniform scaling of a body, as models have it. */
 TEST(BSplineSolid, IsScaledAsItsMeshWouldBe) {
-    const Vec3 factors(1.2, 0.9, 1.1);
+    const Vector3 factors(1.2, 0.9, 1.1);
     const auto solid = std::make_shared<BSplineSolid>(getBone().solid);
-    const auto scaled = makeScaledSurface(solid, Mat3(factors.asDiagonal()));
+    const auto scaled = makeScaledSurface(solid, Matrix3(factors.asDiagonal()));
     testing::Random random(kSeed);
     for (int i = 0; i < 100; ++i) {
-        const Vec3 foot = solid->findSurfacePoint(drawPlace(random)).p;
+        const Vector3 foot = solid->findSurfacePoint(drawPlace(random)).p;
         EXPECT_NEAR(scaled->calcHeight(factors.cwiseProduct(foot)), 0, 1e-12);
     }
 }
 
 TEST(BSplineSolid, RefusesGridsThatDoNotHangTogether) {
-    const SolidGrid sound = fitSolid(testing::scaleMesh(testing::makeBallMesh(1), Vec3::Constant(0.1))).solid.getGrid();
+    const SolidGrid sound =
+        fitSolid(testing::scaleMesh(testing::makeBallMesh(1), Vector3::Constant(0.1))).solid.getGrid();
     BSplineSolid{sound};
     const auto expectRefusal = [&](const std::function<void(SolidGrid&)>& spoil, const std::string& message) {
         SolidGrid grid = sound;

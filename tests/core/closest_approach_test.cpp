@@ -17,7 +17,7 @@ namespace tautline::testing {
 namespace {
 
 /** Lowest of many heights along a line. */
-double calcLowestOfMany(const Surface& surface, const Vec3& A, const Vec3& e, double length) {
+double calcLowestOfMany(const Surface& surface, const Vector3& A, const Vector3& e, double length) {
     constexpr int kSamples = 4000;
     double lowest = kInfinity;
     for (int i = 0; i <= kSamples; ++i) lowest = std::min(lowest, surface.calcHeight(A + i * length / kSamples * e));
@@ -37,8 +37,8 @@ TEST(ClosestApproach, IsBelowTheSurfaceWhereManySamplesSayFromNearAndFromFar) {
         const double size = c.surface->getSize();
         for (const double reach : {3.0, 30.0, 300.0})
             for (int i = 0; i < 15; ++i) {
-                const Vec3 middle = c.center + c.extent * random.vector(0.8), e = random.vector(1).normalized();
-                const Vec3 A = middle - reach * size * e;
+                const Vector3 middle = c.center + c.extent * random.vector(0.8), e = random.vector(1).normalized();
+                const Vector3 A = middle - reach * size * e;
                 const double length = 2 * reach * size;
                 const double s = c.surface->findLowestPoint(A, e, length);
                 const double found = c.surface->calcHeight(A + s * e);
@@ -54,7 +54,7 @@ TEST(ClosestApproach, IsBelowTheSurfaceWhereManySamplesSayFromNearAndFromFar) {
 
 TEST(ClosestApproach, IsNoneAtATangentEnd) {
     const Torus torus(1, 0.2);
-    const Vec3 top(1, 0, 0.2), e(1, 0, 0);  // leaves the tube outwards
+    const Vector3 top(1, 0, 0.2), e(1, 0, 0);  // leaves the tube outwards
     EXPECT_FALSE(findClosestApproach(torus, top, e, 5, 0.2));
     EXPECT_FALSE(findClosestApproach(torus, top + 5 * e, -e, 5, 0.2));
     const auto across = findClosestApproach(torus, top, -e, 5, 0.2);  // and inwards, over the other side of the tube
@@ -66,8 +66,8 @@ TEST(ClosestApproach, IsNoneAtATangentEnd) {
 TEST(ClosestApproach, EndsTheSearchOnLinesBeyondAllMeasure) {
     const Torus torus(1, 0.2);
     for (const double length : {1e8, 1e16, 1e30, 1e300})
-        for (const Vec3& e : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0.6, 0, 0.8)}) {
-            const Vec3 top(1, 0, 0.2);
+        for (const Vector3& e : {Vector3(1, 0, 0), Vector3(0, 0, 1), Vector3(0.6, 0, 0.8)}) {
+            const Vector3 top(1, 0, 0.2);
             const auto place = findClosestApproach(torus, top, e, length, 0.2);
             EXPECT_TRUE(!place || std::isfinite(place->height));
             EXPECT_TRUE(std::isfinite(torus.findLowestPoint(top - length * e, e, length)));
@@ -76,10 +76,10 @@ TEST(ClosestApproach, EndsTheSearchOnLinesBeyondAllMeasure) {
 
 /** A line above a lying ring that tilts. */
 PathScene makeTiltingRing(double tilt) {
-    const Mat3 R = Eigen::AngleAxisd(tilt, Vec3::UnitY()).toRotationMatrix();
+    const Matrix3 R = Eigen::AngleAxisd(tilt, Vector3::UnitY()).toRotationMatrix();
     PathScene scene;
-    scene.point(Vec3(-3, 0, 0.05)).obstacle(std::make_shared<Torus>(1, 0.02), Pose(R, Vec3::Zero()));
-    scene.point(Vec3(3, 0, 0.05));
+    scene.point(Vector3(-3, 0, 0.05)).obstacle(std::make_shared<Torus>(1, 0.02), Pose(R, Vector3::Zero()));
+    scene.point(Vector3(3, 0, 0.05));
     return scene;
 }
 
@@ -91,7 +91,7 @@ TEST(ClosestApproach, ARingThatTiltsInOneStepIsTouchedOnTheSideThatWasNotWatched
         PathSolver solver;
         PathSolution path = makeTiltingRing(tilt).solve();
         ASSERT_TRUE(path.contacts[1].isTouched);
-        const Vec3 touched = path.contacts[1].geodesic.P.x;
+        const Vector3 touched = path.contacts[1].geodesic.P.x;
         path = makeTiltingRing(0.5 * tilt).solve();
         ASSERT_FALSE(path.contacts[1].isTouched);
         ASSERT_GT(path.contacts[1].clearance.C.p.x() * touched.x(), 0);
@@ -108,7 +108,7 @@ TEST(ClosestApproach, ABodyIsMetByLinesFromTenThousandSizesAway) {
     Random random(5);
     int solved = 0;
     for (int i = 0; i < 40; ++i) {
-        const Vec3 e = random.vector(1).normalized(), middle = random.vector(0.3);
+        const Vector3 e = random.vector(1).normalized(), middle = random.vector(0.3);
         PathScene scene;
         scene.point(middle - 1e4 * e).obstacle(std::make_shared<Capsule>(1, 2), Pose()).point(middle + 1e4 * e);
         const PathSolution path = scene.solve();
@@ -124,11 +124,11 @@ TEST(ClosestApproach, AStringStaysAboveACylinderThatRisesInOneStep) {
     const std::shared_ptr<const Surface> surfaces[] = {
         std::make_shared<Cylinder>(0.5), std::make_shared<EllipticCylinder>(0.8, 0.5),
         std::make_shared<ParametricEllipticCylinder>(0.8, 0.5),
-        makeScaledSurface(std::make_shared<Cylinder>(0.5), Mat3(Vec3(1.6, 1, 1).asDiagonal()))};
+        makeScaledSurface(std::make_shared<Cylinder>(0.5), Matrix3(Vector3(1.6, 1, 1).asDiagonal()))};
     for (const auto& surface : surfaces)
         for (const double rise : {0.25, 0.5, 1.0, 1.25, 1.5, 2.0, 3.0, 5.0}) {
             PathScene scene;
-            scene.point(Vec3(-6, 0.6, 0.05)).obstacle(surface, Pose()).point(Vec3(6, 0.6, 0.05));
+            scene.point(Vector3(-6, 0.6, 0.05)).obstacle(surface, Pose()).point(Vector3(6, 0.6, 0.05));
             PathSolution path = scene.solve();
             ASSERT_FALSE(path.contacts[1].isTouched);
             scene.pose.X_GE[1].p.y() = rise;

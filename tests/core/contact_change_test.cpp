@@ -20,18 +20,18 @@ being C = (0, -R); the insertion moves by q d with d = (cos, -sin) of kSlope: wi
 struct TangentScene {
     PathProblem problem;
     PathPose pose;
-    Vec3 d_G;
+    Vector3 d_G;
 
     TangentScene(std::shared_ptr<const Surface> surface, double q) {
         Random random(8);
         const Pose X(random.rotation(), random.vector(1));
         problem.addPoint("origin");
-        problem.addObstacle("obstacle", std::move(surface), PassOnSide{Vec3::UnitY()});
+        problem.addObstacle("obstacle", std::move(surface), PassOnSide{Vector3::UnitY()});
         problem.addPoint("insertion");
-        const Vec3 d(std::cos(kSlope), -std::sin(kSlope), 0);
+        const Vector3 d(std::cos(kSlope), -std::sin(kSlope), 0);
         d_G = X.rotate(d);
-        pose.X_GE = {Pose(X * Vec3(-kBefore, 0, 0)), X * Pose(Vec3(0, -kRadius, 0)),
-                     Pose(X * Vec3(Vec3(kAfter, 0, 0) + q * d))};
+        pose.X_GE = {Pose(X * Vector3(-kBefore, 0, 0)), X * Pose(Vector3(0, -kRadius, 0)),
+                     Pose(X * Vector3(Vector3(kAfter, 0, 0) + q * d))};
     }
     PathSolution solve(bool isTouched) const {
         PathSolution path = solvePath(problem, pose);
@@ -50,7 +50,7 @@ Derivatives calcDerivatives(const TangentScene& scene, const PathSolution& path)
     PathSensitivity sensitivity;
     PathVariation variation;
     sensitivity.setPath(scene.problem, scene.pose, path);
-    EXPECT_TRUE(sensitivity.calcVariation({{}, {}, {Vec3::Zero(), scene.d_G}}, variation));
+    EXPECT_TRUE(sensitivity.calcVariation({{}, {}, {Vector3::Zero(), scene.d_G}}, variation));
     return {path.length, variation.lengthRate, -variation.forceRate[2].force.dot(scene.d_G)};
 }
 

@@ -23,9 +23,9 @@ struct StringOverRing {
 
     StringOverRing() {
         problem.addPoint("origin");
-        problem.addObstacle("ring", std::make_shared<Torus>(1, 0.2), Vec3(1, 0, 0.2));
+        problem.addObstacle("ring", std::make_shared<Torus>(1, 0.2), Vector3(1, 0, 0.2));
         problem.addPoint("insertion");
-        pose.X_GE = {Pose(Vec3(-3, 0, 1.0)), Pose(), Pose(Vec3(2, 0, -0.6))};
+        pose.X_GE = {Pose(Vector3(-3, 0, 1.0)), Pose(), Pose(Vector3(2, 0, -0.6))};
         solver.solve(problem, pose, path);
     }
     void lower(double z) {
@@ -42,8 +42,8 @@ TEST(ContactWitness, KnowsTheHeightAtWhichASegmentPassesTheOtherSideOfARing) {
         scene.lower(z);
         ASSERT_EQ(scene.path.status, PathStatus::Solved);
         // From the tangent point inwards the line is n . x = n . c + r, n its normal: the other center is 2 n_x below.
-        const Vec3 n = scene.path.contacts[1].geodesic.P.N;
-        const double height = -n.dot(Vec3(-2, 0, 0));
+        const Vector3 n = scene.path.contacts[1].geodesic.P.N;
+        const double height = -n.dot(Vector3(-2, 0, 0));
         const SurfaceReturn lowest = findSurfaceReturn(scene.problem, scene.pose, scene.path, 1);
         EXPECT_NEAR(lowest.height, std::min(1.0, height / 0.2), 1e-9) << z;
         const double arc = scene.path.contacts[1].start.length / scene.problem.getElement(1).surface->getSize();
@@ -82,8 +82,8 @@ TEST(SplitWitness, IsThePressureWhereItTurnsInsideTheArc) {
     contact.isTouched = true;
     int pressing = 0, pulling = 0;
     for (const double rho : {0.81, 0.9, 0.99, 1.01, 1.1, 1.19}) {
-        contact.start.point = problem.getElement(1).surface->findSurfacePoint(Vec3(rho, 0, 0.3));
-        contact.start.tangent = Vec3(0, 1, 0);  // along the ring: it presses on the outer half of the tube only
+        contact.start.point = problem.getElement(1).surface->findSurfacePoint(Vector3(rho, 0, 0.3));
+        contact.start.tangent = Vector3(0, 1, 0);  // along the ring: it presses on the outer half of the tube only
         contact.start.length = 0.05;
         problem.getElement(1).surface->shootGeodesic(contact.start, {}, contact.geodesic);
         const double witness = calcSplitWitness(problem, {}, path, 1);
@@ -101,7 +101,7 @@ TEST(SplitWitness, IsOneOnConvexSurfacesAndLiftedOnes) {
     problem.addObstacle("ring", std::make_shared<Torus>(1, 0.2));
     problem.addPoint("insertion");
     PathPose pose;
-    pose.X_GE = {Pose(Vec3(-3, 0.5, 0)), Pose(), Pose(Vec3(9, 9, 9)), Pose(Vec3(3, 0.5, 0))};
+    pose.X_GE = {Pose(Vector3(-3, 0.5, 0)), Pose(), Pose(Vector3(9, 9, 9)), Pose(Vector3(3, 0.5, 0))};
     const PathSolution path = solvePath(problem, pose);
     ASSERT_TRUE(path.contacts[1].isTouched);
     EXPECT_EQ(calcSplitWitness(problem, {}, path, 1), 1);

@@ -13,14 +13,14 @@ namespace tautline::testing {
 namespace {
 
 /** Largest difference of two geodesics' ends, lengths in units of `size`. */
-double calcDifference(const Geodesic& a, const Geodesic& b, double size) {
+double calcDifference(const ShotGeodesic& a, const ShotGeodesic& b, double size) {
     return std::max({(a.Q.x - b.Q.x).norm() / size, (a.Q.t - b.Q.t).norm(), (a.Q.N - b.Q.N).norm(),
                      (a.Q.B - b.Q.B).norm(), std::abs(a.a - b.a), std::abs(a.aDot - b.aDot) * size,
                      std::abs(a.r - b.r) / size, std::abs(a.rDot - b.rDot)});
 }
 
 /** How much an error at the start can have grown at the end: the size of the Jacobi fields. */
-double calcGrowth(const Geodesic& g, double size) {
+double calcGrowth(const ShotGeodesic& g, double size) {
     return 1 + std::abs(g.a) + std::abs(g.aDot) * size + std::abs(g.r) / size + std::abs(g.rDot);
 }
 
@@ -35,7 +35,7 @@ void compareWithIntegrator(const ClosedForm& shape, double extent) {
         for (double turns : {0.0, 1e-9, -1e-9, 0.1, -0.4, 1.0, 6.0, -6.0}) {
             start.length = 2 * kPi * turns * shape.getSize();
             SCOPED_TRACE(start.length);
-            Geodesic closed, integrated;
+            ShotGeodesic closed, integrated;
             shape.shootGeodesic(start, {}, closed);
             shape.shootByIntegration(start, {1e-13, 2000}, integrated);
             EXPECT_TRUE(integrated.converged);
@@ -59,11 +59,11 @@ TEST(GeodesicClosedForm, HelixOfThesisFig3_7) {  // Eqn. 3.68 on Eqn. 3.67, radi
     const double u = -1.0, v = 0.5, du = 0.82, dv = 0.57, length = 2.5, speed = std::hypot(du, dv);
     EXPECT_NEAR(speed, 1, 2e-3);  // the two digits printed are of unit speed
     const GeodesicStart start{{{std::cos(u), std::sin(u), v}}, {-std::sin(u) * du, std::cos(u) * du, dv}, length};
-    Geodesic helix;
+    ShotGeodesic helix;
     Cylinder(1).shootGeodesic(start, {}, helix);
     const double uEnd = u + du / speed * length;
-    EXPECT_LT((helix.Q.x - Vec3(std::cos(uEnd), std::sin(uEnd), v + dv / speed * length)).norm(), 1e-15);
-    EXPECT_LT((helix.Q.N - Vec3(std::cos(uEnd), std::sin(uEnd), 0)).norm(), 1e-15);
+    EXPECT_LT((helix.Q.x - Vector3(std::cos(uEnd), std::sin(uEnd), v + dv / speed * length)).norm(), 1e-15);
+    EXPECT_LT((helix.Q.N - Vector3(std::cos(uEnd), std::sin(uEnd), 0)).norm(), 1e-15);
     EXPECT_NEAR(helix.Q.kappaN, -du * du / (speed * speed), 1e-15);
     EXPECT_NEAR(helix.r, length, 1e-15);  // K = 0
 }
@@ -71,13 +71,13 @@ TEST(GeodesicClosedForm, HelixOfThesisFig3_7) {  // Eqn. 3.68 on Eqn. 3.67, radi
 TEST(GeodesicClosedForm, ConjugatePointOfSphereIsFlaggedBeyondHalfATurnAndNotBefore) {
     const double radius = 0.7;
     const Sphere sphere(radius);
-    GeodesicStart start{{Vec3(0, 0, radius)}, Vec3(1, 0, 0), 0};
+    GeodesicStart start{{Vector3(0, 0, radius)}, Vector3(1, 0, 0), 0};
     for (double accuracy : {1e-3, 1e-9, 1e-12}) {
         // Wide enough for the error of r at the loosest accuracy, and two whole turns where r is positive again.
         for (double turns : {0.49, 0.51, -0.49, -0.51, 1.2, -1.2}) {
             SCOPED_TRACE(turns);
             start.length = 2 * kPi * radius * turns;
-            Geodesic closed, integrated;
+            ShotGeodesic closed, integrated;
             sphere.shootGeodesic(start, {}, closed);
             sphere.shootByIntegration(start, {accuracy, 2000}, integrated);
             EXPECT_EQ(closed.hasConjugatePoint, std::abs(turns) > 0.5);
@@ -110,8 +110,8 @@ constexpr double kLawTolerance = 1e-10;
 
 TEST_P(GeodesicLaws, ReversalSwapsEnds) {
     forRandomGeodesics(1, [&](const GeodesicStart& start, double length) {
-        const Geodesic there = shoot(surface(), start, length);
-        const Geodesic back = shoot(surface(), {there.endPoint, -there.Q.t, 0}, length);
+        const ShotGeodesic there = shoot(surface(), start, length);
+        const ShotGeodesic back = shoot(surface(), {there.endPoint, -there.Q.t, 0}, length);
         const double tolerance = kLawTolerance * calcGrowth(there, size());
         EXPECT_LT((back.Q.x - there.P.x).norm() / size(), tolerance);
         EXPECT_LT((back.Q.t + there.P.t).norm(), tolerance);
@@ -125,8 +125,8 @@ TEST_P(GeodesicLaws, ReversalSwapsEnds) {
 
 TEST_P(GeodesicLaws, NegativeLengthIsTheOppositeDirection) {
     forRandomGeodesics(2, [&](const GeodesicStart& start, double length) {
-        const Geodesic forward = shoot(surface(), {start.point, -start.tangent, 0}, -length);
-        const Geodesic backward = shoot(surface(), start, length);
+        const ShotGeodesic forward = shoot(surface(), {start.point, -start.tangent, 0}, -length);
+        const ShotGeodesic backward = shoot(surface(), start, length);
         EXPECT_LT((forward.Q.x - backward.Q.x).norm(), 1e-13 * size());  // same steps, same rounding but for signs
         EXPECT_LT((forward.Q.t + backward.Q.t).norm(), 1e-13);
         EXPECT_NEAR(forward.r, -backward.r, 1e-13 * size());
@@ -135,8 +135,8 @@ TEST_P(GeodesicLaws, NegativeLengthIsTheOppositeDirection) {
 
 TEST_P(GeodesicLaws, LengthIsAdditive) {
     forRandomGeodesics(3, [&](const GeodesicStart& start, double length) {
-        const Geodesic whole = shoot(surface(), start, length), first = shoot(surface(), start, 0.37 * length);
-        const Geodesic second = shoot(surface(), {first.endPoint, first.Q.t, 0}, 0.63 * length);
+        const ShotGeodesic whole = shoot(surface(), start, length), first = shoot(surface(), start, 0.37 * length);
+        const ShotGeodesic second = shoot(surface(), {first.endPoint, first.Q.t, 0}, 0.63 * length);
         const double tolerance = kLawTolerance * calcGrowth(whole, size());
         EXPECT_LT((second.Q.x - whole.Q.x).norm() / size(), tolerance);
         EXPECT_LT((second.Q.t - whole.Q.t).norm(), tolerance);
@@ -149,7 +149,7 @@ TEST_P(GeodesicLaws, LengthIsAdditive) {
 TEST_P(GeodesicLaws, UnitSpeed) {
     forRandomGeodesics(4, [&](const GeodesicStart& start, double length) {
         const double h = 1e-5 * size();  // the chord of 2h is shorter than its arc by h^3 kappa^2/3 at most
-        const Geodesic before = shoot(surface(), start, length - h), after = shoot(surface(), start, length + h);
+        const ShotGeodesic before = shoot(surface(), start, length - h), after = shoot(surface(), start, length + h);
         const double kappa = std::abs(after.Q.kappaN) + 1 / size();
         // Two shots may take different steps: what these leave is divided by 2h.
         const double tolerance = h * h * kappa * kappa + 1e-11 * calcGrowth(after, size()) * size() / h;
@@ -160,14 +160,14 @@ TEST_P(GeodesicLaws, UnitSpeed) {
 
 TEST_P(GeodesicLaws, EndsLieOnTheSurfaceWithOrthonormalFrames) {
     forRandomGeodesics(5, [&](const GeodesicStart& start, double length) {
-        const Geodesic g = shoot(surface(), start, length);
+        const ShotGeodesic g = shoot(surface(), start, length);
         for (const DarbouxFrame* frame : {&g.P, &g.Q}) {
-            Vec3 N;
+            Vector3 N;
             EXPECT_LT(std::abs(surface().calcHeightAndNormal(frame->x, N)), 1e-14 * GetParam().extent);
             EXPECT_LT((frame->N - N).norm(), 1e-13);
-            Mat3 R;
+            Matrix3 R;
             R << frame->t, frame->N, frame->B;
-            EXPECT_LT((R.transpose() * R - Mat3::Identity()).norm(), 1e-14);
+            EXPECT_LT((R.transpose() * R - Matrix3::Identity()).norm(), 1e-14);
             EXPECT_LT((frame->t.cross(frame->N) - frame->B).norm(), 1e-14);
         }
         EXPECT_TRUE(g.converged);
@@ -177,7 +177,7 @@ TEST_P(GeodesicLaws, EndsLieOnTheSurfaceWithOrthonormalFrames) {
 
 TEST_P(GeodesicLaws, JacobiFieldsHaveUnitWronskian) {
     forRandomGeodesics(6, [&](const GeodesicStart& start, double length) {
-        const Geodesic g = shoot(surface(), start, length);
+        const ShotGeodesic g = shoot(surface(), start, length);
         const double growth = calcGrowth(g, size());  // a product of two fields is lost in part
         EXPECT_NEAR(g.a * g.rDot - g.aDot * g.r, 1, 1e-11 * growth * growth);
     });
@@ -190,9 +190,9 @@ TEST_P(GeodesicLaws, MillimetersGiveTheAnswerOfMeters) {
         std::size_t k = 0;
         while (meters[k].name != GetParam().name) ++k;
         forRandomGeodesics(7, [&](const GeodesicStart& start, double length) {
-            const Geodesic small = shoot(surface(), start, length);
-            const GeodesicStart scaled{{Vec3(scale * start.point.p)}, start.tangent, 0};
-            const Geodesic large = shoot(*millimeters[k].surface, scaled, scale * length);
+            const ShotGeodesic small = shoot(surface(), start, length);
+            const GeodesicStart scaled{{Vector3(scale * start.point.p)}, start.tangent, 0};
+            const ShotGeodesic large = shoot(*millimeters[k].surface, scaled, scale * length);
             const double tolerance = scale == 1024 ? 1e-15 : 1e-12 * calcGrowth(small, size());
             EXPECT_LE((large.Q.x / scale - small.Q.x).norm() / size(), tolerance);
             EXPECT_LE((large.Q.t - small.Q.t).norm(), tolerance);
@@ -214,7 +214,7 @@ TEST_P(GeodesicLaws, IntegrationWithoutConstraintsEndsAtTheSamePoint) {
         const GeodesicStart start = makeRandomStart(GetParam(), random);
         const double length = (i % 2 ? -4 : 4) * size();
         const auto slope = [&](const Eigen::Matrix<double, 6, 1>& y) {
-            const DarbouxFrame frame = surface().calcFrame({Vec3(y.head<3>())}, y.tail<3>());
+            const DarbouxFrame frame = surface().calcFrame({Vector3(y.head<3>())}, y.tail<3>());
             Eigen::Matrix<double, 6, 1> dy;
             dy << y.tail<3>(), frame.kappaN * frame.N;
             return dy;
@@ -228,7 +228,7 @@ TEST_P(GeodesicLaws, IntegrationWithoutConstraintsEndsAtTheSamePoint) {
                                               k4 = slope(y + h * k3);
             y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
         }
-        const Geodesic g = shoot(surface(), start, length);
+        const ShotGeodesic g = shoot(surface(), start, length);
         const double tolerance = 1e-10 * calcGrowth(g, size());
         EXPECT_LT((g.Q.x - y.head<3>()).norm() / size(), tolerance);
         EXPECT_LT((g.Q.t - y.tail<3>()).norm(), tolerance);
@@ -239,11 +239,11 @@ TEST_P(GeodesicLaws, SamplesLieOnTheGeodesicAtEqualArcs) {
     Random random(9);
     GeodesicStart start = makeRandomStart(GetParam(), random);
     start.length = 3 * size();
-    std::vector<Vec3> points;
+    std::vector<Vector3> points;
     sampleGeodesic(surface(), start, {}, 7, points);
     ASSERT_EQ(points.size(), 7u);
     for (int i = 0; i < 7; ++i) {
-        const Geodesic g = shoot(surface(), start, i * start.length / 6);
+        const ShotGeodesic g = shoot(surface(), start, i * start.length / 6);
         EXPECT_LT((points[i] - g.Q.x).norm(), kLawTolerance * size() * calcGrowth(g, size())) << i;
     }
     EXPECT_THROW(sampleGeodesic(surface(), start, {}, 1, points), InvalidInput);
@@ -254,7 +254,7 @@ INSTANTIATE_TEST_SUITE_P(AllShapes, GeodesicLaws, ::testing::ValuesIn(makeShapes
 /** One line of tests/data/geodesics.txt, which says who wrote it. */
 struct Reference {
     std::string kind;
-    Vec3 dimensions, P, t, Q, tQ;
+    Vector3 dimensions, P, t, Q, tQ;
     double length, a, aDot, r, rDot;
 
     std::shared_ptr<const Surface> makeSurface() const {
@@ -266,15 +266,15 @@ struct Reference {
         return std::make_shared<ParametricEllipsoid>(dimensions);
     }
     /** Largest error of a geodesic shot from P, relative to its growth; lengths in units of the extent. */
-    double calcError(const Geodesic& g) const {
+    double calcError(const ShotGeodesic& g) const {
         const double extent = dimensions.maxCoeff();
-        Geodesic truth = g;
+        ShotGeodesic truth = g;
         truth.Q.x = Q, truth.Q.t = tQ, truth.a = a, truth.aDot = aDot, truth.r = r, truth.rDot = rDot;
         return calcDifference(g, truth, extent) / calcGrowth(truth, extent);
     }
 };
 
-std::istream& operator>>(std::istream& in, Vec3& v) {
+std::istream& operator>>(std::istream& in, Vector3& v) {
     return in >> v[0] >> v[1] >> v[2];
 }
 
@@ -301,16 +301,16 @@ TEST(GeodesicReference, TableIsMetInBothDirections) {
         for (const auto& surface : {ref.makeSurface(), ref.makeParametricSurface()}) {
             SCOPED_TRACE(surface->getDescription() + " length " + std::to_string(ref.length));
             // Local error 1e-15 per step: rounding rules, a few ulp for each of up to some hundred steps.
-            const GeodesicOptions finest{1e-15, 5000};
-            const auto start = [&](const Vec3& p, const Vec3& t) {
+            const ShootingOptions finest{1e-15, 5000};
+            const auto start = [&](const Vector3& p, const Vector3& t) {
                 return GeodesicStart{surface->findSurfacePoint(p), t, 0};
             };
-            const Geodesic there = shoot(*surface, start(ref.P, ref.t), ref.length, finest);
+            const ShotGeodesic there = shoot(*surface, start(ref.P, ref.t), ref.length, finest);
             EXPECT_LT(ref.calcError(there), 1e-13);
             Reference reversed = ref;
             reversed.Q = ref.P, reversed.tQ = ref.t;
             reversed.a = ref.rDot, reversed.aDot = -ref.aDot, reversed.r = -ref.r, reversed.rDot = ref.a;
-            const Geodesic back = shoot(*surface, start(ref.Q, ref.tQ), -ref.length, finest);
+            const ShotGeodesic back = shoot(*surface, start(ref.Q, ref.tQ), -ref.length, finest);
             EXPECT_LT(reversed.calcError(back), 1e-13);
         }
 }
@@ -322,7 +322,7 @@ TEST(GeodesicReference, AccuracyControlsTheError) {
         double loosest = 0, tightest = 0;
         int steps = 0;
         for (double accuracy : {1e-3, 1e-6, 1e-9, 1e-12}) {
-            const Geodesic g = shoot(*surface, {{ref.P}, ref.t, 0}, ref.length, {accuracy, 5000});
+            const ShotGeodesic g = shoot(*surface, {{ref.P}, ref.t, 0}, ref.length, {accuracy, 5000});
             // Local errors add up over the steps; the growth of each is in calcError already.
             EXPECT_LT(ref.calcError(g), 10 * accuracy * g.steps);
             if (accuracy < 1e-3) {  // where it takes a pair of lower order, whose steps are more and cheaper
@@ -338,9 +338,9 @@ TEST(GeodesicReference, AccuracyControlsTheError) {
 /** A unit sphere that counts its evaluations. */
 class CountingSphere final : public ImplicitShape<CountingSphere> {
 public:
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    ImplicitValue calcImplicit(const Vector3& p) const {
         ++m_count;
-        return {(p.squaredNorm() - 1) / 2, p, Mat3::Identity()};
+        return {(p.squaredNorm() - 1) / 2, p, Matrix3::Identity()};
     }
     double getSize() const override { return 1; }
     std::string getDescription() const override { return "counting sphere"; }
@@ -351,12 +351,12 @@ private:
 };
 
 TEST(GeodesicDegenerate, NotANumberEndsWithinTheAllowedSteps) {
-    const GeodesicOptions options{1e-9, 100};
-    const Vec3 nan = Vec3::Constant(kNaN), p(1, 0, 0), t(0, 1, 0);
+    const ShootingOptions options{1e-9, 100};
+    const Vector3 nan = Vector3::Constant(kNaN), p(1, 0, 0), t(0, 1, 0);
     const GeodesicStart starts[] = {{{nan}, t, 1}, {{p}, nan, 1}, {{p}, t, kNaN}, {{p}, t, kInfinity}};
     for (const GeodesicStart& start : starts) {
         const CountingSphere sphere;
-        Geodesic g;
+        ShotGeodesic g;
         sphere.shootGeodesic(start, options, g);
         EXPECT_FALSE(g.converged);
         EXPECT_LE(sphere.getCount(), 15 * options.maxSteps);  // 12 stages, the projection and the watch
@@ -365,17 +365,17 @@ TEST(GeodesicDegenerate, NotANumberEndsWithinTheAllowedSteps) {
 }
 
 TEST(GeodesicDegenerate, TooFewStepsAreReported) {
-    Geodesic g;
-    Ellipsoid(Vec3(1, 2, 3)).shootGeodesic({{Vec3(1, 0, 0)}, Vec3(0, 1, 1), 50}, {1e-12, 5}, g);
+    ShotGeodesic g;
+    Ellipsoid(Vector3(1, 2, 3)).shootGeodesic({{Vector3(1, 0, 0)}, Vector3(0, 1, 1), 50}, {1e-12, 5}, g);
     EXPECT_FALSE(g.converged);
     EXPECT_TRUE(g.Q.x.allFinite());
 }
 
 TEST(GeodesicDegenerate, StartBesideTheSurfaceWithSkewTangentIsMadeUnit) {
-    const Ellipsoid ellipsoid(Vec3(1, 2, 3));
-    const Geodesic g = shoot(ellipsoid, {{Vec3(1, 0, 0)}, Vec3(5, 3, 4), 0}, 0.5);
-    EXPECT_LT((g.P.t - Vec3(0, 0.6, 0.8)).norm(), 1e-15);
-    EXPECT_LT((g.Q.x - shoot(ellipsoid, {{Vec3(1, 0, 0)}, Vec3(0, 0.6, 0.8), 0}, 0.5).Q.x).norm(), 1e-15);
+    const Ellipsoid ellipsoid(Vector3(1, 2, 3));
+    const ShotGeodesic g = shoot(ellipsoid, {{Vector3(1, 0, 0)}, Vector3(5, 3, 4), 0}, 0.5);
+    EXPECT_LT((g.P.t - Vector3(0, 0.6, 0.8)).norm(), 1e-15);
+    EXPECT_LT((g.Q.x - shoot(ellipsoid, {{Vector3(1, 0, 0)}, Vector3(0, 0.6, 0.8), 0}, 0.5).Q.x).norm(), 1e-15);
 }
 
 }  // namespace

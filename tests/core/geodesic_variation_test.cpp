@@ -23,11 +23,11 @@ protected:
     const Surface& surface() const { return *GetParam().surface; }
 
     Ends shootVaried(const GeodesicStart& start, int variation, double amount) const {
-        Vec4 correction = Vec4::Zero();
+        Vector4 correction = Vector4::Zero();
         correction[variation] = amount;
         const DarbouxFrame P = surface().calcFrame(start.point, start.tangent);
         const GeodesicStart varied = calcCorrectedStart(surface(), start, P, correction);
-        const Geodesic g = shoot(surface(), varied, varied.length, {kAccuracy, 5000});
+        const ShotGeodesic g = shoot(surface(), varied, varied.length, {kAccuracy, 5000});
         return {g.P, g.Q};
     }
 
@@ -49,7 +49,7 @@ TEST_P(GeodesicVariation, EqualsCentralDifferences) {
         for (double length : {0.0, 1e-6, 0.4, -0.6, 2.5}) {
             SCOPED_TRACE("geodesic " + std::to_string(i) + " of length " + std::to_string(length) + " sizes");
             start.length = length * size;
-            const Geodesic g = shoot(surface(), start, start.length, {kAccuracy, 5000});
+            const ShotGeodesic g = shoot(surface(), start, start.length, {kAccuracy, 5000});
             const FrameVariations dP = calcStartVariations(g.P), dQ = calcEndVariations(g.Q, g);
             const double fields = 1 + std::abs(g.a) + std::abs(g.r) / size, growth = fields * fields * fields;
             for (int j = 0; j < kVariations; ++j) {
@@ -65,7 +65,7 @@ TEST_P(GeodesicVariation, EqualsCentralDifferences) {
 TEST_P(GeodesicVariation, ShiftAlongTheGeodesicEqualsLengthening) {  // at Q: Eqn. 4.12 and 4.46
     Random random(42);
     const GeodesicStart start = makeRandomStart(GetParam(), random);
-    const Geodesic g = shoot(surface(), start, surface().getSize());
+    const ShotGeodesic g = shoot(surface(), start, surface().getSize());
     const FrameVariations d = calcEndVariations(g.Q, g);
     EXPECT_EQ((d.x.col(0) - d.x.col(3)).norm() + (d.N.col(0) - d.N.col(3)).norm() + (d.B.col(0) - d.B.col(3)).norm(),
               0);

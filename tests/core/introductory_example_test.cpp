@@ -21,16 +21,16 @@ TEST(IntroductoryExample, IteratesAsThesisTab2_1) {
                                {0.3333333333333333, 0.000000000000000, 1.732050807568877}};
     constexpr double kPrinted = 2e-15;  // half a unit of the 15th decimal, and rounding of numbers of order one
     const double phiO = 8 * kPi / 9;
-    const Vec3 I(2, 0, 0);
+    const Vector3 I(2, 0, 0);
     const Cylinder circle(1);
-    GeodesicStart start{{Vec3(std::cos(phiO), std::sin(phiO), 0)}, Vec3(std::sin(phiO), -std::cos(phiO), 0), 0};
+    GeodesicStart start{{Vector3(std::cos(phiO), std::sin(phiO), 0)}, Vector3(std::sin(phiO), -std::cos(phiO), 0), 0};
     double phiQ = 0.8 * kPi;
     for (const auto& row : rows) {
-        Geodesic arc;
+        ShotGeodesic arc;
         start.length = phiO - phiQ;
         circle.shootGeodesic(start, {}, arc);
         const FrameVariations d = calcEndVariations(arc.Q, arc);
-        const Vec3 line = arc.Q.x - I;
+        const Vector3 line = arc.Q.x - I;
         const double error = arc.Q.N.dot(line);
         const double jacobian = -(d.N.col(3).dot(line) + arc.Q.N.dot(d.x.col(3)));  // by phi_Q = phi_O - length
         EXPECT_NEAR(phiQ / kPi, row[0], kPrinted);

@@ -82,13 +82,13 @@ public:
         m_problem.addPoint("origin");
         m_problem.addObstacle("sphere", std::make_shared<Sphere>(1));
         m_problem.addPoint("insertion");
-        m_pose.X_GE = {Pose(Vec3(-2, 0, 0.2)), Pose(), Pose(Vec3(2, 0, 0.2))};
+        m_pose.X_GE = {Pose(Vector3(-2, 0, 0.2)), Pose(), Pose(Vector3(2, 0, 0.2))};
         m_start.contacts.resize(3);
         ObstacleContact& contact = m_start.contacts[1];
         contact.isTouched = true;
-        const Vec3 up(0, std::sin(angle), std::cos(angle));
-        contact.start.point.p = Vec3(-0.5, 0, 0) + std::sqrt(0.75) * up;
-        contact.start.tangent = Vec3(std::sqrt(0.75), 0, 0) + 0.5 * up;
+        const Vector3 up(0, std::sin(angle), std::cos(angle));
+        contact.start.point.p = Vector3(-0.5, 0, 0) + std::sqrt(0.75) * up;
+        contact.start.tangent = Vector3(std::sqrt(0.75), 0, 0) + 0.5 * up;
         contact.start.length = kPi / 3;
     }
     const PathProblem& getProblem() const { return m_problem; }
@@ -151,10 +151,10 @@ TEST(LengthMinimizer, StartsThatAreFarAreFollowedToMinima) {
                 ObstacleContact& contact = start.contacts[e];
                 if (!contact.isTouched) continue;
                 const Surface& surface = *scene.getProblem().getElement(static_cast<int>(e)).surface;
-                const Vec3 move = random.vector(0.5);
-                contact.start =
-                    calcCorrectedStart(surface, contact.start, contact.geodesic.P,
-                                       Vec4(move.x() * surface.getSize(), move.y() * surface.getSize(), move.z(), 0));
+                const Vector3 move = random.vector(0.5);
+                contact.start = calcCorrectedStart(
+                    surface, contact.start, contact.geodesic.P,
+                    Vector4(move.x() * surface.getSize(), move.y() * surface.getSize(), move.z(), 0));
             }
             PathSolution down = start, any = start;
             const bool isDown = LengthMinimizer({}).minimize(scene.getProblem(), pose, down);

@@ -25,8 +25,8 @@ TriangleMesh makeCube() {
 }
 
 /** Distance to the cube in closed form. */
-double calcCubeDistance(const Vec3& p) {
-    const Vec3 beyond = p.cwiseAbs() - Vec3::Ones();
+double calcCubeDistance(const Vector3& p) {
+    const Vector3 beyond = p.cwiseAbs() - Vector3::Ones();
     return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
 }
 
@@ -36,7 +36,7 @@ TEST(MeshDistance, OfACubeIsItsClosedForm) {
     EXPECT_DOUBLE_EQ(calcArea(distance.getMesh()), 24);
     testing::Random random(kSeed);
     for (int i = 0; i < 2000; ++i) {
-        const Vec3 p = random.vector(2);
+        const Vector3 p = random.vector(2);
         EXPECT_NEAR(distance.calcSignedDistance(p), calcCubeDistance(p), 1e-14) << p.transpose();
     }
 }
@@ -48,7 +48,7 @@ TEST(MeshDistance, IsThatOfTheNearestOfAllTriangles) {
     for (const auto& triangle : mesh.triangles) single.emplace_back(TriangleMesh{mesh.points, {triangle}});
     testing::Random random(kSeed);
     for (int i = 0; i < 100; ++i) {
-        const Vec3 p = random.vector(0.6);
+        const Vector3 p = random.vector(0.6);
         double least = kInfinity;
         for (const MeshDistance& one : single) least = std::min(least, one.findNearest(p).distance);
         const MeshDistance::Nearest nearest = all.findNearest(p);
@@ -61,11 +61,11 @@ TEST(MeshDistance, IsThatOfTheNearestOfAllTriangles) {
 
 TEST(MeshDistance, WindingNumberCountsThePartsAroundAPoint) {
     const TriangleMesh ball = testing::makeBallMesh(3);
-    const MeshDistance two(testing::joinMeshes(ball, testing::scaleMesh(ball, Vec3::Ones(), Vec3(1, 0, 0))));
+    const MeshDistance two(testing::joinMeshes(ball, testing::scaleMesh(ball, Vector3::Ones(), Vector3(1, 0, 0))));
     testing::Random random(kSeed);
     for (int i = 0; i < 1000; ++i) {
-        const Vec3 p = random.vector(2.5);
-        const double first = p.norm(), second = (p - Vec3(1, 0, 0)).norm();
+        const Vector3 p = random.vector(2.5);
+        const double first = p.norm(), second = (p - Vector3(1, 0, 0)).norm();
         if (std::abs(first - 1) < 0.02 || std::abs(second - 1) < 0.02) continue;  // between facets and ball
         EXPECT_NEAR(two.calcWindingNumber(p), (first < 1) + (second < 1), 0.02) << p.transpose();
     }
@@ -85,9 +85,9 @@ TEST(MeshDistance, WindingNumberDoesNotLeakThroughAHole) {
 
 TEST(MeshDistance, PointsThatAreNoneHaveNoNearestOne) {
     const MeshDistance distance(makeCube());
-    EXPECT_EQ(distance.findNearest(Vec3::Constant(kNaN)).triangle, -1);
-    EXPECT_FALSE(distance.isInside(Vec3::Constant(kNaN)));
-    EXPECT_FALSE(distance.isInside(Vec3::Constant(1e300)));
+    EXPECT_EQ(distance.findNearest(Vector3::Constant(kNaN)).triangle, -1);
+    EXPECT_FALSE(distance.isInside(Vector3::Constant(kNaN)));
+    EXPECT_FALSE(distance.isInside(Vector3::Constant(1e300)));
 }
 
 TEST(MeshDistance, RefusesMeshesThatAreNone) {

@@ -54,7 +54,7 @@ TEST(MeshRepair, MergesThePointsOfSeparateTriangles) {
 
 TEST(MeshRepair, TurnsTrianglesOfEachPartOutward) {
     const TriangleMesh ball = testing::makeBallMesh(2);
-    TriangleMesh two = testing::joinMeshes(ball, testing::scaleMesh(ball, Vec3::Ones(), Vec3(3, 0, 0)));
+    TriangleMesh two = testing::joinMeshes(ball, testing::scaleMesh(ball, Vector3::Ones(), Vector3(3, 0, 0)));
     testing::Random random(kSeed);
     int numTurned = 0;
     for (auto& triangle : two.triangles)
@@ -83,7 +83,7 @@ TEST(MeshRepair, ClosesEachHoleByAFan) {
     TriangleMesh ball = testing::makeBallMesh(3);
     const double volume = calcVolume(ball);
     const auto isGone = [&](const std::array<int, 3>& triangle) {
-        const Vec3& corner = ball.points[static_cast<std::size_t>(triangle[0])];
+        const Vector3& corner = ball.points[static_cast<std::size_t>(triangle[0])];
         return corner.z() > 0.95 || corner.x() < -0.98;
     };
     ball.triangles.erase(std::remove_if(ball.triangles.begin(), ball.triangles.end(), isGone), ball.triangles.end());

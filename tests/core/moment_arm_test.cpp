@@ -19,18 +19,18 @@ public:
     HingedArm(std::shared_ptr<const Surface> surface, const Pose& X_ES, bool surfaceTurns)
         : m_X_ES(X_ES), m_surfaceTurns(surfaceTurns) {
         m_problem.addPoint("origin");
-        m_problem.addObstacle("surface", std::move(surface), PassOnSide{X_ES.rotateBack(-Vec3::UnitX())});
+        m_problem.addObstacle("surface", std::move(surface), PassOnSide{X_ES.rotateBack(-Vector3::UnitX())});
         m_problem.addPoint("insertion");
     }
 
     static constexpr int kElements = 3;
-    const Vec3 axis = Vec3(0.1, -0.05, 1).normalized(), center{0.005, 0.01, -0.004};
+    const Vector3 axis = Vector3(0.1, -0.05, 1).normalized(), center{0.005, 0.01, -0.004};
 
     PathPose calcPose(double q) const {
         const Pose turn = calcTurn(q);
         PathPose pose;
-        pose.X_GE = {Pose(Vec3(-0.03, 0.3, 0.012)), m_surfaceTurns ? turn * m_X_ES : m_X_ES,
-                     turn * Pose(Vec3(-0.045, -0.2, -0.015))};
+        pose.X_GE = {Pose(Vector3(-0.03, 0.3, 0.012)), m_surfaceTurns ? turn * m_X_ES : m_X_ES,
+                     turn * Pose(Vector3(-0.045, -0.2, -0.015))};
         return pose;
     }
     /** dX/dq of all elements: the hinge's turning of those that it turns. */
@@ -75,7 +75,7 @@ public:
 
 private:
     Pose calcTurn(double q) const {
-        const Mat3 R = Eigen::AngleAxisd(q, axis).toRotationMatrix();
+        const Matrix3 R = Eigen::AngleAxisd(q, axis).toRotationMatrix();
         return {R, center - R * center};
     }
 
@@ -93,26 +93,26 @@ double calcDifference(const Function& f) {
 }
 
 TEST(MomentArm, ItsDerivativeIsTheDifferenceOverAllKindsOfSurface) {
-    const Mat3 tilted = Eigen::AngleAxisd(0.05, Vec3(1, 2, 0).normalized()).toRotationMatrix();
-    const Mat3 body = makeBodyScaling(Vec3(1.3, 0.8, 1));
+    const Matrix3 tilted = Eigen::AngleAxisd(0.05, Vector3(1, 2, 0).normalized()).toRotationMatrix();
+    const Matrix3 body = makeBodyScaling(Vector3(1.3, 0.8, 1));
     const std::shared_ptr<const Surface> surfaces[] = {
         std::make_shared<Sphere>(0.05),
         std::make_shared<Cylinder>(0.04),
         std::make_shared<ParametricCylinder>(0.04),
-        std::make_shared<Ellipsoid>(Vec3(0.05, 0.03, 0.08)),
-        std::make_shared<ParametricEllipsoid>(Vec3(0.05, 0.03, 0.08)),
+        std::make_shared<Ellipsoid>(Vector3(0.05, 0.03, 0.08)),
+        std::make_shared<ParametricEllipsoid>(Vector3(0.05, 0.03, 0.08)),
         std::make_shared<EllipticTorus>(0.03, 0.02, 0.04),
         std::make_shared<EllipticCylinder>(0.05, 0.03),
         std::make_shared<Capsule>(0.04, 0.05),
-        std::make_shared<OffsetSurface>(std::make_shared<Ellipsoid>(Vec3(0.05, 0.03, 0.08)), 0.005),
-        std::make_shared<ScaledImplicitSurface<Ellipsoid>>(Ellipsoid(Vec3(0.05, 0.03, 0.08)), body),
+        std::make_shared<OffsetSurface>(std::make_shared<Ellipsoid>(Vector3(0.05, 0.03, 0.08)), 0.005),
+        std::make_shared<ScaledImplicitSurface<Ellipsoid>>(Ellipsoid(Vector3(0.05, 0.03, 0.08)), body),
     };
     for (const auto& surface : surfaces)
         for (const bool surfaceTurns : {false, true})
             for (const double q : {0.05, 0.1}) {
                 SCOPED_TRACE(surface->getDescription() + (surfaceTurns ? ", turning" : ", fixed") + ", q " +
                              std::to_string(q));
-                HingedArm arm(surface, Pose(tilted, Vec3(0.003, -0.002, 0)), surfaceTurns);
+                HingedArm arm(surface, Pose(tilted, Vector3(0.003, -0.002, 0)), surfaceTurns);
                 const PathSolution path = arm.solve(q);
                 ASSERT_EQ(path.status, PathStatus::Solved);
                 ASSERT_TRUE(path.contacts[1].isTouched);

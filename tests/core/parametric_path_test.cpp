@@ -21,7 +21,7 @@ public:
     enum class Forms { Implicit, Parametric, Mixed };
 
     explicit TwinScene(Forms forms) {
-        const Vec3 egg(0.35, 0.25, 0.45);
+        const Vector3 egg(0.35, 0.25, 0.45);
         add(forms, std::make_shared<Cylinder>(0.3), std::make_shared<ParametricCylinder>(0.3));
         add(forms, std::make_shared<Ellipsoid>(egg), std::make_shared<ParametricEllipsoid>(egg));
         add(forms, std::make_shared<Torus>(0.3, 0.12), std::make_shared<ParametricTorus>(0.3, 0.12));
@@ -48,29 +48,30 @@ public:
         V_GE.assign(n + 2, SpatialVelocity());
         for (std::size_t i = 0; i < n; ++i) {
             const double angle = 0.1 * std::sin(t + i), rate = 0.1 * std::cos(t + i);
-            pose.X_GE[i + 1].R = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
-            pose.X_GE[i + 1].p = Vec3(1.2 * (i + 1), 0.05 * std::cos(2 * t + i), 0.02 * i);
+            pose.X_GE[i + 1].R = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
+            pose.X_GE[i + 1].p = Vector3(1.2 * (i + 1), 0.05 * std::cos(2 * t + i), 0.02 * i);
             const Pose placing = calcPlacing(i);
             pose.X_GE[i + 1].R *= placing.R, pose.X_GE[i + 1].p += placing.p;
-            V_GE[i + 1].w = rate * Vec3::UnitZ();
-            V_GE[i + 1].v = Vec3(0, -0.1 * std::sin(2 * t + i), 0);
+            V_GE[i + 1].w = rate * Vector3::UnitZ();
+            V_GE[i + 1].v = Vector3(0, -0.1 * std::sin(2 * t + i), 0);
         }
-        pose.X_GE[n + 1].p = Vec3(1.2 * (n + 1), 0.1 * std::sin(t), 0.05);
-        V_GE[n + 1].v = Vec3(0, 0.1 * std::cos(t), 0);
+        pose.X_GE[n + 1].p = Vector3(1.2 * (n + 1), 0.1 * std::sin(t), 0.05);
+        V_GE[n + 1].v = Vector3(0, 0.1 * std::cos(t), 0);
     }
 
 private:
     static constexpr std::size_t kParaboloid = 6, kCapsule = 7, kCone = 8;
     static double getSide(std::size_t i) { return i % 2 ? -1 : 1; }
-    static Vec3 calcHint(std::size_t i) {
+    static Vector3 calcHint(std::size_t i) {
         if (i == kParaboloid) return {0, 0, -0.2};  // beyond the vertex
         return {0, getSide(i) * 0.5, i == kCapsule ? 0.17 : i == kCone ? 0.9 : 0.02};
     }
     /** The paraboloid's vertex looks up, the string crosses the capsule where its cap begins, the cone far from its
      * apex. */
     static Pose calcPlacing(std::size_t i) {
-        if (i == kParaboloid) return {Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()).toRotationMatrix(), Vec3(0, 0.3, 0)};
-        return Pose(Vec3(0, 0, i == kCapsule ? -0.1 : i == kCone ? -0.9 : 0));
+        if (i == kParaboloid)
+            return {Eigen::AngleAxisd(kPi / 2, Vector3::UnitX()).toRotationMatrix(), Vector3(0, 0.3, 0)};
+        return Pose(Vector3(0, 0, i == kCapsule ? -0.1 : i == kCone ? -0.9 : 0));
     }
     void add(Forms forms, std::shared_ptr<const Surface> implicitForm, std::shared_ptr<const Surface> parametricForm) {
         const bool isImplicit = forms == Forms::Implicit || (forms == Forms::Mixed && m_surfaces.size() % 2);
@@ -122,14 +123,14 @@ TEST(PatchPaths, AreSolvedInsideAndReportedOutside) {
         for (int j = 0; j < 7; ++j)
             dome(i, j) = 0.3 - 0.4 * std::pow(-1 + i / 3.0, 2) - 0.2 * std::pow(-1 + j / 3.0, 2);
     const auto patch =
-        std::make_shared<BSplinePatch>(BSplinePatch::interpolateHeights({Vec2(-1, -1), Vec2(1, 1)}, dome));
+        std::make_shared<BSplinePatch>(BSplinePatch::interpolateHeights({Vector2(-1, -1), Vector2(1, 1)}, dome));
     const auto solve = [&](double x, double y, double z) {
         PathProblem problem;
         problem.addPoint("origin");
         problem.addObstacle("bone", patch);
         problem.addPoint("insertion");
         PathPose pose;
-        pose.X_GE = {Pose(Vec3(-x, y, z)), Pose(), Pose(Vec3(x, y + 0.1, z + 0.05))};
+        pose.X_GE = {Pose(Vector3(-x, y, z)), Pose(), Pose(Vector3(x, y + 0.1, z + 0.05))};
         return solvePath(problem, pose);
     };
     const PathSolution inside = solve(0.9, 0.1, 0.1), outside = solve(1.5, 0.1, -0.56), beside = solve(0.9, 1.1, -0.1);
@@ -146,10 +147,11 @@ TEST(CapsulePaths, WrapTheCapAndAnOffset) {
     problem.addPoint("origin");
     problem.addObstacle("capsule", std::make_shared<Capsule>(0.1, 0.3, 0.12));
     problem.addObstacle(
-        "layer", std::make_shared<OffsetSurface>(std::make_shared<ParametricEllipsoid>(Vec3(0.1, 0.15, 0.1)), 0.02));
+        "layer", std::make_shared<OffsetSurface>(std::make_shared<ParametricEllipsoid>(Vector3(0.1, 0.15, 0.1)), 0.02));
     problem.addPoint("insertion");
     PathPose pose;
-    pose.X_GE = {Pose(Vec3(-0.5, 0, 0)), Pose(Vec3(0, 0, -0.1)), Pose(Vec3(0.5, 0.01, 0.02)), Pose(Vec3(1, 0, 0))};
+    pose.X_GE = {Pose(Vector3(-0.5, 0, 0)), Pose(Vector3(0, 0, -0.1)), Pose(Vector3(0.5, 0.01, 0.02)),
+                 Pose(Vector3(1, 0, 0))};
     const PathSolution path = solvePath(problem, pose);
     EXPECT_EQ(path.status, PathStatus::Solved) << getName(path.status);
     EXPECT_TRUE(path.contacts[1].isTouched);

@@ -49,13 +49,13 @@ TEST(ParametricSphere, IntegratesThroughThePolesOfItsCharts) {
     const ParametricSphere sphere(0.4);
     for (int axis = 0; axis < 3; ++axis)
         for (const double aside : {0.0, 1e-15, 1e-9, 1e-3}) {
-            const Vec3 start = 0.4 * Vec3::Unit((axis + 1) % 3);
-            const Vec3 towards = (Vec3::Unit(axis) + aside * Vec3::Unit((axis + 2) % 3)).normalized();
-            Geodesic g;
+            const Vector3 start = 0.4 * Vector3::Unit((axis + 1) % 3);
+            const Vector3 towards = (Vector3::Unit(axis) + aside * Vector3::Unit((axis + 2) % 3)).normalized();
+            ShotGeodesic g;
             const double angle = 2.9;  // past the pole at pi/2
             sphere.shootByIntegration({sphere.findSurfacePoint(start), towards, 0.4 * angle}, {}, g);
             EXPECT_TRUE(g.converged);
-            const Vec3 expected = std::cos(angle) * start + 0.4 * std::sin(angle) * towards;
+            const Vector3 expected = std::cos(angle) * start + 0.4 * std::sin(angle) * towards;
             EXPECT_LT((g.Q.x - expected).norm(), 1e-11) << "axis " << axis << ", aside " << aside;
             EXPECT_NEAR(g.r, 0.4 * std::sin(angle), 1e-11);
         }
@@ -66,32 +66,32 @@ TEST(SineCosine, IsThatOfTheLibrary) {
     double worst = 0;
     for (double x = -60; x < 60; x += 0.00137)
         for (const double scale : {1.0, 1e-3, 1000.0, 3000.0}) {
-            const Vec2 angles(x * scale, 0.7 * x * scale);
+            const Vector2 angles(x * scale, 0.7 * x * scale);
             const SineCosine pair(angles);
             for (int i = 0; i < 2; ++i)
                 worst = std::max({worst, std::abs(pair.sine[i] - std::sin(angles[i])),
                                   std::abs(pair.cosine[i] - std::cos(angles[i]))});
         }
     EXPECT_LT(worst, 4.5e-16);
-    EXPECT_TRUE(std::isnan(SineCosine(Vec2(kNaN, 1)).sine[0]));
+    EXPECT_TRUE(std::isnan(SineCosine(Vector2(kNaN, 1)).sine[0]));
 }
 
 /** A point given by its position alone gets its coordinates. */
 TEST(ParametricEllipsoid, ResolvesPointsGivenByPosition) {
-    const ParametricEllipsoid surface(Vec3(0.05, 0.03, 0.08));
-    const Vec3 p = surface.findSurfacePoint(Vec3(0.04, 0.02, -0.05)).p;
-    const DarbouxFrame frame = surface.calcFrame({p}, Vec3(1, 2, 3));
+    const ParametricEllipsoid surface(Vector3(0.05, 0.03, 0.08));
+    const Vector3 p = surface.findSurfacePoint(Vector3(0.04, 0.02, -0.05)).p;
+    const DarbouxFrame frame = surface.calcFrame({p}, Vector3(1, 2, 3));
     EXPECT_LT((frame.x - p).norm(), 1e-16);
-    Geodesic g;
-    surface.shootGeodesic({{p}, Vec3(1, 2, 3), 0.05}, {}, g);
+    ShotGeodesic g;
+    surface.shootGeodesic({{p}, Vector3(1, 2, 3), 0.05}, {}, g);
     EXPECT_LT((g.P.x - p).norm(), 1e-16);
 }
 
 /** Several turns around a cylinder: u counts them. */
 TEST(ParametricCylinder, CountsTurns) {
     const ParametricCylinder cylinder(0.5);
-    Geodesic closed, integrated;
-    const GeodesicStart start{cylinder.findSurfacePoint(Vec3(0.5, 0, 0)), Vec3(0, 1, 0.1), 10};
+    ShotGeodesic closed, integrated;
+    const GeodesicStart start{cylinder.findSurfacePoint(Vector3(0.5, 0, 0)), Vector3(0, 1, 0.1), 10};
     cylinder.shootGeodesic(start, {}, closed);
     cylinder.shootByIntegration(start, {}, integrated);
     EXPECT_NEAR(closed.endPoint.uv[0], 20 / std::sqrt(1.01), 1e-12);
@@ -101,14 +101,14 @@ TEST(ParametricCylinder, CountsTurns) {
 
 /** Thesis Tab. 6.1 with the raised A and B of the errata; the value is the one recomputed there. */
 TEST(Paraboloid, HasTheClearanceOfTheThesis) {
-    const Vec3 A(-10, 10, -5), B(10, 5, -2);
-    const Vec3 e = (B - A).normalized();
+    const Vector3 A(-10, 10, -5), B(10, 5, -2);
+    const Vector3 e = (B - A).normalized();
     const Paraboloid implicitForm(14, 6);
     const ParametricParaboloid parametricForm(14, 6);
     for (const Surface* surface :
          {static_cast<const Surface*>(&implicitForm), static_cast<const Surface*>(&parametricForm)}) {
         LineClearance clearance;
-        clearance.C = surface->findSurfacePoint(Vec3(1, 2, 1.0 / 14 + 4.0 / 6));
+        clearance.C = surface->findSurfacePoint(Vector3(1, 2, 1.0 / 14 + 4.0 / 6));
         clearance.N = surface->calcFrame(clearance.C, e).N;
         surface->findLineClearance(A, e, clearance);
         ASSERT_TRUE(clearance.found) << surface->getDescription();
@@ -122,8 +122,8 @@ TEST(Paraboloid, HasTheClearanceOfTheThesis) {
 /** The closed form of the unrolled cone against the integrator of implicit surfaces. */
 TEST(Cone, UnrolledGeodesicsAreThoseOfTheIntegrator) {
     const Cone cone(0.4, 0.3);
-    for (const SurfaceLawSample& sample : testing::makeSamples(cone, 0.4, Vec3(0, 0, 1), 1, {}, 50, kSeed)) {
-        Geodesic closed, integrated;
+    for (const SurfaceLawSample& sample : testing::makeSamples(cone, 0.4, Vector3(0, 0, 1), 1, {}, 50, kSeed)) {
+        ShotGeodesic closed, integrated;
         const GeodesicStart start{cone.findSurfacePoint(sample.p_S), sample.direction_S, sample.length};
         cone.shootGeodesic(start, {}, closed);
         cone.shootByIntegration(start, {}, integrated);
@@ -142,7 +142,7 @@ TEST(OffsetSurface, OfSphereAndTorusIsTheThickerOne) {
     };
     for (const auto& [base, expected] : pairs) {
         const OffsetSurface offset(base, 0.05);
-        const auto samples = testing::makeSamples(*expected, 1, Vec3::Zero(), 0.8, {}, 20, kSeed);
+        const auto samples = testing::makeSamples(*expected, 1, Vector3::Zero(), 0.8, {}, 20, kSeed);
         SurfaceLawOptions options;
         options.exactTolerance = kAgreement;
         for (const std::string& sentence : checkSameSurface(*expected, offset, samples, options))
@@ -167,7 +167,7 @@ TEST(OffsetSurface, GeodesicsOverTheBaseAreThoseOfTheDistanceFunction) {
             const DarbouxFrame base = c.surface->calcFrame(foot, sample.direction_S);
             if (!(h * std::max(base.kappaN, base.kappaB) < 0.3)) continue;  // the layer has no edge near
             const GeodesicStart start{offset.findSurfacePoint(base.x + h * base.N), base.t, sample.length};
-            Geodesic over, reference;
+            ShotGeodesic over, reference;
             offset.shootGeodesic(start, {}, over);
             offset.shootByIntegration({{start.point.p}, start.tangent, start.length}, {}, reference);
             ASSERT_TRUE(over.converged && reference.converged);
@@ -188,7 +188,7 @@ TEST(OffsetSurface, GeodesicsOverTheBaseAreThoseOfTheDistanceFunction) {
 /** An ellipsoid that counts its evaluations. */
 class CountingEllipsoid final : public ImplicitShape<CountingEllipsoid> {
 public:
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    ImplicitValue calcImplicit(const Vector3& p) const {
         ++count;
         return m_ellipsoid.calcImplicit(p);
     }
@@ -198,16 +198,16 @@ public:
     mutable int count = 0;
 
 private:
-    Ellipsoid m_ellipsoid{Vec3(0.05, 0.03, 0.08)};
+    Ellipsoid m_ellipsoid{Vector3(0.05, 0.03, 0.08)};
 };
 
 TEST(OffsetSurface, CostsLittleMoreEvaluationsThanItsBase) {
     const auto base = std::make_shared<CountingEllipsoid>();
     const OffsetSurface offset(base, 0.01);
     int onBase = 0, onOffset = 0;
-    for (const SurfaceLawSample& sample : testing::makeSamples(*base, 0.1, Vec3::Zero(), 0.1, {}, 20, kSeed)) {
+    for (const SurfaceLawSample& sample : testing::makeSamples(*base, 0.1, Vector3::Zero(), 0.1, {}, 20, kSeed)) {
         const SurfacePoint below = base->findSurfacePoint(sample.p_S), above = offset.findSurfacePoint(sample.p_S);
-        Geodesic g;
+        ShotGeodesic g;
         base->count = 0;
         base->shootGeodesic({below, sample.direction_S, sample.length}, {}, g);
         onBase += base->count;

@@ -21,17 +21,17 @@ BSplinePatch makeMap(double normalSign = 1) {
     return makeBumpPatch(11, normalSign);
 }
 
-bool isOverMap(const Vec3& p) {
+bool isOverMap(const Vector3& p) {
     return std::abs(p.x()) <= 1 && std::abs(p.y()) <= 1;
 }
 
 /** Distance from the prism under a map, over a grid of its columns; 0 inside. */
-double calcDistanceFromPrism(const BSplinePatch& map, double normalSign, const Vec3& p) {
+double calcDistanceFromPrism(const BSplinePatch& map, double normalSign, const Vector3& p) {
     constexpr int kColumns = 60;
     double least = kInfinity;
     for (int i = 0; i <= kColumns; ++i)
         for (int j = 0; j <= kColumns; ++j) {
-            const Vec2 xy(-1 + 2.0 * i / kColumns, -1 + 2.0 * j / kColumns);
+            const Vector2 xy(-1 + 2.0 * i / kColumns, -1 + 2.0 * j / kColumns);
             const double above = normalSign * (p.z() - map.calcParametric(xy, 0).x.z());
             least = std::min(least, std::hypot((p.head<2>() - xy).norm(), std::max(0.0, above)));
         }
@@ -44,10 +44,10 @@ TEST(PatchEdge, InsideAHeightMapIsThePrismBelowItsRectangle) {
         const BSplinePatch map = makeMap(normalSign);
         int inside = 0;
         for (int i = 0; i < 5000; ++i) {
-            const Vec3 p =
-                i % 2 == 0 ? random.vector(1.5) : Vec3(random.vector(3) + random.logUniform(1, 1e4) * Vec3::UnitZ());
+            const Vector3 p = i % 2 == 0 ? random.vector(1.5)
+                                         : Vector3(random.vector(3) + random.logUniform(1, 1e4) * Vector3::UnitZ());
             const bool isBelow = isOverMap(p) && normalSign * (p.z() - map.calcParametric(p.head<2>(), 0).x.z()) < 0;
-            Vec3 N;
+            Vector3 N;
             const double height = map.calcHeightAndNormal(p, N);
             EXPECT_EQ(height < 0, isBelow) << p.transpose() << ": " << height;
             EXPECT_TRUE(std::isfinite(height) && std::abs(N.norm() - 1) < 1e-12) << p.transpose();
@@ -60,8 +60,8 @@ TEST(PatchEdge, InsideAHeightMapIsThePrismBelowItsRectangle) {
 TEST(PatchEdge, NothingBesideAHeightMapIsInsideWhereverInHeight) {
     const BSplinePatch map = makeMap();
     for (const double z : {-1e6, -100.0, -1.0, -0.1, 0.0, 0.1, 1.0, 100.0})
-        for (const Vec2& xy : {Vec2(1.001, 0), Vec2(3, 0.2), Vec2(-4, 5), Vec2(0.3, -1e4)})
-            EXPECT_GT(map.calcHeight(Vec3(xy.x(), xy.y(), z)), 0) << xy.transpose() << " " << z;
+        for (const Vector2& xy : {Vector2(1.001, 0), Vector2(3, 0.2), Vector2(-4, 5), Vector2(0.3, -1e4)})
+            EXPECT_GT(map.calcHeight(Vector3(xy.x(), xy.y(), z)), 0) << xy.transpose() << " " << z;
 }
 
 // What searches that march by heights rely on (Surface::calcHeightAndNormal).
@@ -71,7 +71,7 @@ TEST(PatchEdge, AHeightIsAtMostTwiceTheDistanceFromWhatIsInside) {
     for (const double normalSign : {1.0, -1.0}) {
         const BSplinePatch map = makeMap(normalSign);
         for (int i = 0; i < 300; ++i) {
-            const Vec3 p = random.vector(i % 2 == 0 ? 1.3 : 6);
+            const Vector3 p = random.vector(i % 2 == 0 ? 1.3 : 6);
             EXPECT_LT(map.calcHeight(p), 2 * calcDistanceFromPrism(map, normalSign, p) + kGrid) << p.transpose();
         }
     }
@@ -84,13 +84,13 @@ TEST(PatchEdge, InsideAPatchInSpaceIsWhatHasItsFootInTheDomain) {
     Random random(9);
     int inside = 0, beside = 0;
     for (int i = 0; i < 1000; ++i) {
-        const Vec3 p = Vec3(0.2, 0, 0) + random.vector(0.7);
+        const Vector3 p = Vector3(0.2, 0, 0) + random.vector(0.7);
         if (p.x() < 0.05) continue;  // beyond the centers of curvature feet are not unique
         double least = kInfinity;
-        Vec2 nearest;
+        Vector2 nearest;
         for (int u = 0; u <= kGrid; ++u)
             for (int v = 0; v <= kGrid; ++v) {
-                const Vec2 uv(double(u) / kGrid, double(v) / kGrid);
+                const Vector2 uv(double(u) / kGrid, double(v) / kGrid);
                 const double distance = (shell.calcParametric(uv, 0).x - p).norm();
                 if (distance < least) least = distance, nearest = uv;
             }
@@ -113,14 +113,14 @@ TEST(PatchEdge, InsideAPatchInSpaceIsWhatHasItsFootInTheDomain) {
 
 TEST(PatchEdge, ScaledMapsAndLayersOverMapsEndBesideThemToo) {
     const auto map = std::make_shared<BSplinePatch>(makeMap());
-    const SurfacePtr scaled = makeScaledSurface(map, Vec3(2, 1, 0.5)),
+    const SurfacePtr scaled = makeScaledSurface(map, Vector3(2, 1, 0.5)),
                      layer = std::make_shared<OffsetSurface>(map, 0.1);
     for (const double z : {-20.0, -0.5, 0.0, 0.05}) {
-        EXPECT_GT(scaled->calcHeight(Vec3(2.1, 0.2, z)), 0) << z;
-        EXPECT_GT(layer->calcHeight(Vec3(1.1, 0.2, z)), 0) << z;
+        EXPECT_GT(scaled->calcHeight(Vector3(2.1, 0.2, z)), 0) << z;
+        EXPECT_GT(layer->calcHeight(Vector3(1.1, 0.2, z)), 0) << z;
     }
-    EXPECT_LT(scaled->calcHeight(Vec3(1.5, 0.2, -0.5)), 0);
-    EXPECT_LT(layer->calcHeight(Vec3(0.5, 0.2, calcBumps(0.5, 0.2) + 0.05)), 0);
+    EXPECT_LT(scaled->calcHeight(Vector3(1.5, 0.2, -0.5)), 0);
+    EXPECT_LT(layer->calcHeight(Vector3(0.5, 0.2, calcBumps(0.5, 0.2) + 0.05)), 0);
 }
 
 /** A string beside a map, over a sphere and under a cylinder that stand beside it. */
@@ -130,16 +130,16 @@ struct SceneBesideAMap {
 
     explicit SceneBesideAMap(Random& random) {
         const double x = random.uniform(1.2, 4), z = random.uniform(-3, 3);
-        add(Vec3(x, -2, z));
+        add(Vector3(x, -2, z));
         addObstacle(std::make_shared<Sphere>(random.uniform(0.05, 0.15)),
-                    Pose(Vec3(x + random.uniform(0, 0.1), -1.2, z)));
+                    Pose(Vector3(x + random.uniform(0, 0.1), -1.2, z)));
         with.obstacle(map, Pose());
-        addObstacle(std::make_shared<Cylinder>(0.1), Pose(Vec3(x + random.uniform(0, 0.1), 1.2, z)));
-        add(Vec3(x, 2, z + random.uniform(-0.1, 0.1)));
+        addObstacle(std::make_shared<Cylinder>(0.1), Pose(Vector3(x + random.uniform(0, 0.1), 1.2, z)));
+        add(Vector3(x, 2, z + random.uniform(-0.1, 0.1)));
     }
 
 private:
-    void add(const Vec3& p) {
+    void add(const Vector3& p) {
         with.point(p);
         without.point(p);
     }
@@ -166,10 +166,11 @@ TEST(PatchEdge, AStringOverTheMiddleOfAMapIsSolvedAndOneOverItsEdgeHasLeftIt) {
     Eigen::MatrixXd dome(11, 11);
     for (int i = 0; i <= 10; ++i)
         for (int j = 0; j <= 10; ++j) dome(i, j) = -0.02 * ((i - 5) * (i - 5) + (j - 5) * (j - 5)) / 2.0;
-    const auto map = std::make_shared<BSplinePatch>(BSplinePatch::interpolateHeights({Vec2(-1, -1), Vec2(1, 1)}, dome));
+    const auto map =
+        std::make_shared<BSplinePatch>(BSplinePatch::interpolateHeights({Vector2(-1, -1), Vector2(1, 1)}, dome));
     const auto solve = [&](double z) {
         PathScene scene;
-        return scene.point(Vec3(-2, 0, z)).obstacle(map, Pose()).point(Vec3(2, 0, z)).solve();
+        return scene.point(Vector3(-2, 0, z)).obstacle(map, Pose()).point(Vector3(2, 0, z)).solve();
     };
     EXPECT_EQ(solve(-0.3).status, PathStatus::Solved);
     EXPECT_EQ(solve(-0.8).status, PathStatus::LeftDomain);

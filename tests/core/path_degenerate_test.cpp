@@ -12,7 +12,7 @@
 #include "tautline/surfaces/capsule.h"
 #include "tautline/surfaces/elliptic_cylinder.h"
 #include "tautline/surfaces/function_surface.h"
-#include "tautline/surfaces/plane.h"
+#include "tautline/surfaces/half_space.h"
 
 namespace tautline::testing {
 namespace {
@@ -22,18 +22,18 @@ behind, in the ellipse's plane. */
 double calcLengthOver(double ahead, double aside, double distance) {
     // The tangent from (-distance, 0) touches at cos(angle) = ahead / distance from (-ahead, 0).
     const double from = std::acos(ahead / distance), to = kPi - from;
-    const Vec2 touched(-ahead * std::cos(from), aside * std::sin(from));
+    const Vector2 touched(-ahead * std::cos(from), aside * std::sin(from));
     const auto speed = [&](double angle) { return std::hypot(ahead * std::sin(angle), aside * std::cos(angle)); };
     constexpr int kPieces = 200;  // of Simpson's rule
     const double h = (to - from) / kPieces;
     double arc = 0;
     for (int i = 0; i < kPieces; ++i)
         arc += h / 6 * (speed(from + i * h) + 4 * speed(from + (i + 0.5) * h) + speed(from + (i + 1) * h));
-    return 2 * (touched + Vec2(distance, 0)).norm() + arc;
+    return 2 * (touched + Vector2(distance, 0)).norm() + arc;
 }
 
 /** Length of a string over the top of a circle, from (x_O, y_O) to (x_I, y_I) about its center. */
-double calcLengthOverCircle(double radius, const Vec2& O, const Vec2& I) {
+double calcLengthOverCircle(double radius, const Vector2& O, const Vector2& I) {
     const double O_C = O.norm(), I_C = I.norm();
     const double turn = std::acos(O.dot(I) / (O_C * I_C)) - std::acos(radius / O_C) - std::acos(radius / I_C);
     return std::sqrt(O_C * O_C - radius * radius) + std::sqrt(I_C * I_C - radius * radius) + radius * turn;
@@ -48,7 +48,7 @@ struct Answer {
 
 struct AwkwardLine {
     const char* name;
-    Vec3 O, I;
+    Vector3 O, I;
     Answer sphere, cylinder, ellipsoid, torus;  ///< of the shapes in EveryShapeFromEveryAwkwardPlace
 };
 
@@ -64,7 +64,7 @@ std::vector<AwkwardLine> makeAwkwardLines() {
     const Answer twice{PathStatus::Solved, kNaN, true};
     // The torus is hollow where the other shapes are full: its center and (0.5, 0, 0) lie in its hole.
     const Answer inHole{PathStatus::Solved, 0.5, false};
-    const Answer overTube{PathStatus::Solved, calcLengthOverCircle(0.25, Vec2(-2, 0), Vec2(0.5, 0)), true};
+    const Answer overTube{PathStatus::Solved, calcLengthOverCircle(0.25, Vector2(-2, 0), Vector2(0.5, 0)), true};
     // Of the ellipsoid 0.5 x 1 x 2 the shorter side of the chord: over y along x, over x along z.
     const Answer overWaist{PathStatus::Solved, calcLengthOver(0.5, 1, 3), true};
     const Answer overLength{PathStatus::Solved, calcLengthOver(2, 0.5, 3), true};
@@ -91,12 +91,13 @@ TEST(PathSolverDegenerate, EveryShapeFromEveryAwkwardPlace) {
     const std::pair<std::shared_ptr<const Surface>, Answer AwkwardLine::*> shapes[] = {
         {std::make_shared<Sphere>(0.5), &AwkwardLine::sphere},
         {std::make_shared<Cylinder>(0.5), &AwkwardLine::cylinder},
-        {std::make_shared<Ellipsoid>(Vec3(0.5, 1, 2)), &AwkwardLine::ellipsoid},
+        {std::make_shared<Ellipsoid>(Vector3(0.5, 1, 2)), &AwkwardLine::ellipsoid},
         {std::make_shared<Torus>(1, 0.25), &AwkwardLine::torus}};
     for (const auto& [surface, answer] : shapes)
         for (const AwkwardLine& line : makeAwkwardLines())
-            for (const std::optional<Vec3>& hint :
-                 {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 1, 0)), std::optional<Vec3>(Vec3(0, 0, 0))}) {
+            for (const std::optional<Vector3>& hint :
+                 {std::optional<Vector3>(), std::optional<Vector3>(Vector3(0, 1, 0)),
+                  std::optional<Vector3>(Vector3(0, 0, 0))}) {
                 SCOPED_TRACE(surface->getDescription() + " " + line.name + (hint ? " with hint" : ""));
                 PathScene scene;
                 scene.point(line.O).obstacle(surface, Pose(), hint).point(line.I);
@@ -108,9 +109,10 @@ TEST(PathSolverDegenerate, EveryShapeFromEveryAwkwardPlace) {
 
 /** Two spheres about one center: the larger one carries the string, the other one is clear by the difference. */
 TEST(PathSolverDegenerate, OfConcentricSpheresTheLargerIsTouched) {
-    const Vec3 O(-3, 0.1, 0), I(2, 0.3, 0);
+    const Vector3 O(-3, 0.1, 0), I(2, 0.3, 0);
     for (const double second : {0.3, 0.499, 0.501, 0.7})
-        for (const std::optional<Vec3>& hint : {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 1, 0))}) {
+        for (const std::optional<Vector3>& hint :
+             {std::optional<Vector3>(), std::optional<Vector3>(Vector3(0, 1, 0))}) {
             SCOPED_TRACE(second);
             PathScene scene;
             scene.point(O).obstacle(std::make_shared<Sphere>(0.5), Pose(), hint);
@@ -127,7 +129,7 @@ TEST(PathSolverDegenerate, OfConcentricSpheresTheLargerIsTouched) {
 
 /** Which of two equal spheres in one place is touched is not determined; that one is, and how long the string is. */
 TEST(PathSolverDegenerate, TheSameSphereTwiceIsWrappedOnce) {
-    const Vec3 O(-3, 0.1, 0), I(2, 0.3, 0);
+    const Vector3 O(-3, 0.1, 0), I(2, 0.3, 0);
     PathScene scene;
     scene.point(O).obstacle(std::make_shared<Sphere>(0.5), Pose());
     scene.obstacle(std::make_shared<Sphere>(0.5), Pose()).point(I);
@@ -141,9 +143,10 @@ TEST(PathSolverDegenerate, TheSameSphereTwiceIsWrappedOnce) {
 before it comes to the groove. Two tangents, two arcs up to the tops, and the distance of the centers between. */
 TEST(PathSolverDegenerate, StringOverOverlappingSpheresSideBySideBridgesTheGroove) {
     for (const double distance : {0.01, 0.4, 0.8, 1.0, 1.2})
-        for (const std::optional<Vec3>& hint : {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 1, 0))}) {
+        for (const std::optional<Vector3>& hint :
+             {std::optional<Vector3>(), std::optional<Vector3>(Vector3(0, 1, 0))}) {
             SCOPED_TRACE(distance);
-            const Vec3 first(-distance / 2, 0, 0), second(distance / 2, 0, 0), O(-3, 0.1, 0), I(3, 0.1, 0);
+            const Vector3 first(-distance / 2, 0, 0), second(distance / 2, 0, 0), O(-3, 0.1, 0), I(3, 0.1, 0);
             PathScene scene;
             scene.point(O).obstacle(std::make_shared<Sphere>(0.5), Pose(first), hint);
             scene.obstacle(std::make_shared<Sphere>(0.5), Pose(second), hint).point(I);
@@ -162,8 +165,8 @@ TEST(PathSolverDegenerate, LinesPastOverlappingSpheresAreStraight) {
     for (const double distance : {0.4, 1.0})
         for (const double y : {0.5, -0.6}) {
             PathScene scene;
-            scene.point(Vec3(-3, y, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(-distance / 2, 0, 0)));
-            scene.obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(distance / 2, 0, 0))).point(Vec3(3, y, 0));
+            scene.point(Vector3(-3, y, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose(Vector3(-distance / 2, 0, 0)));
+            scene.obstacle(std::make_shared<Sphere>(0.5), Pose(Vector3(distance / 2, 0, 0))).point(Vector3(3, y, 0));
             const PathSolution path = scene.solve();
             EXPECT_EQ(path.status, PathStatus::Solved);
             EXPECT_NEAR(path.length, 6, 1e-14);
@@ -178,8 +181,8 @@ TEST(PathSolverDegenerate, LinesPastOverlappingSpheresAreStraight) {
 TEST(PathSolverPlane, TellsTheClearanceOfAStringAboveIt) {
     for (const double z : {0.5, 0.3}) {
         PathScene scene;
-        scene.point(Vec3(-1, 0, 0.3)).obstacle(std::make_shared<Plane>(0.2), Pose(Vec3(0, 0, 0.1)));
-        scene.point(Vec3(1, 0, z));
+        scene.point(Vector3(-1, 0, 0.3)).obstacle(std::make_shared<HalfSpace>(0.2), Pose(Vector3(0, 0, 0.1)));
+        scene.point(Vector3(1, 0, z));
         const PathSolution path = scene.solve();
         EXPECT_EQ(path.status, PathStatus::Solved);
         EXPECT_FALSE(path.contacts[1].isTouched);
@@ -192,13 +195,13 @@ TEST(PathSolverPlane, TellsTheClearanceOfAStringAboveIt) {
 PathScene makeKeel(double depth, bool isPlaneFirst) {
     const auto keel = std::make_shared<ImplicitFunctionSurface>(
         makeImplicitSurface("keel", 0.2, [depth](auto x, auto /*y*/, auto z) { return 2.0 * x * x + depth - z; }));
-    const auto plane = std::make_shared<Plane>(0.2);
+    const auto plane = std::make_shared<HalfSpace>(0.2);
     PathScene scene;
-    scene.point(Vec3(-1, 0, 0.3));
+    scene.point(Vector3(-1, 0, 0.3));
     if (isPlaneFirst) scene.obstacle(plane, Pose());
     scene.obstacle(keel, Pose());
     if (!isPlaneFirst) scene.obstacle(plane, Pose());
-    scene.point(Vec3(1, 0, 0.5));
+    scene.point(Vector3(1, 0, 0.5));
     return scene;
 }
 
@@ -233,9 +236,9 @@ TEST(PathSolverPlane, StringDrawnThroughItByAKeelNamesThePlane) {
 
 TEST(PathSolverPlane, PointBelowItIsNamedWithThePlane) {
     PathScene scene;
-    const auto plane = std::make_shared<Plane>(0.2);
-    scene.point(Vec3(-1, 0, 0.3)).obstacle(plane, Pose()).point(Vec3(0, 0, -0.1)).obstacle(plane, Pose());
-    scene.point(Vec3(1, 0, 0.5));
+    const auto plane = std::make_shared<HalfSpace>(0.2);
+    scene.point(Vector3(-1, 0, 0.3)).obstacle(plane, Pose()).point(Vector3(0, 0, -0.1)).obstacle(plane, Pose());
+    scene.point(Vector3(1, 0, 0.5));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::EndInside);
     EXPECT_TRUE(path.contacts[1].isSwitchedOff && path.contacts[3].isSwitchedOff);
@@ -246,9 +249,9 @@ TEST(PathSolverPlane, PointBelowItIsNamedWithThePlane) {
 /** A via point on the plane draws the string down to it: lifted off by 1e-7 sizes for either side (path_solver.h). */
 TEST(PathSolverPlane, PointOnItIsSolved) {
     PathScene scene;
-    const auto plane = std::make_shared<Plane>(0.2);
-    scene.point(Vec3(-1, 0, 0.3)).obstacle(plane, Pose()).point(Vec3(0, 0, 0)).obstacle(plane, Pose());
-    scene.point(Vec3(1, 0, 0.5));
+    const auto plane = std::make_shared<HalfSpace>(0.2);
+    scene.point(Vector3(-1, 0, 0.3)).obstacle(plane, Pose()).point(Vector3(0, 0, 0)).obstacle(plane, Pose());
+    scene.point(Vector3(1, 0, 0.5));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::Solved);
     EXPECT_NEAR(path.length, std::hypot(1, 0.3) + std::hypot(1, 0.5), 1e-7);
@@ -265,13 +268,13 @@ TEST(PathSolverDegenerate, ChordsThroughAxesAndCentersAreSolvedInBothForms) {
                                                        std::make_shared<ParametricEllipticCylinder>(0.4, 0.3),
                                                        std::make_shared<Capsule>(0.4, 1.0, 0.3),
                                                        std::make_shared<ParametricCapsule>(0.4, 1.0, 0.3),
-                                                       std::make_shared<Ellipsoid>(Vec3(0.4, 0.3, 0.2)),
-                                                       std::make_shared<ParametricEllipsoid>(Vec3(0.4, 0.3, 0.2))};
+                                                       std::make_shared<Ellipsoid>(Vector3(0.4, 0.3, 0.2)),
+                                                       std::make_shared<ParametricEllipsoid>(Vector3(0.4, 0.3, 0.2))};
     for (const auto& surface : surfaces)
         for (const double a : {0.6, 1.0, 8.0})
             for (const double slant : {0.0, 0.5, -0.1})
                 for (const bool alongY : {false, true}) {
-                    const Vec3 side = alongY ? Vec3(0, a, slant) : Vec3(a, 0, slant);
+                    const Vector3 side = alongY ? Vector3(0, a, slant) : Vector3(a, 0, slant);
                     SCOPED_TRACE(surface->getDescription() + " " + std::to_string(a) + " " + std::to_string(slant));
                     PathScene scene;
                     scene.point(-side).obstacle(surface, Pose()).point(1.25 * side);
@@ -286,10 +289,11 @@ TEST(PathSolverDegenerate, EllipsoidsAsThinAsOneToTwentyAreSolvedFromAnywhere) {
     Random random(12);
     for (int i = 0; i < 40; ++i)
         for (const bool isBroadside : {true, false}) {
-            const Vec3 ahead = isBroadside ? Vec3(0, 0, 2) : Vec3(2, 0, 0), spread(0.3, 0.3, isBroadside ? 0.3 : 0.015);
+            const Vector3 ahead = isBroadside ? Vector3(0, 0, 2) : Vector3(2, 0, 0),
+                          spread(0.3, 0.3, isBroadside ? 0.3 : 0.015);
             PathScene scene;
             scene.point(ahead + random.vector(1).cwiseProduct(spread));
-            scene.obstacle(std::make_shared<Ellipsoid>(Vec3(1, 0.8, 0.05)), Pose());
+            scene.obstacle(std::make_shared<Ellipsoid>(Vector3(1, 0.8, 0.05)), Pose());
             scene.point(random.vector(1).cwiseProduct(spread) - ahead);
             EXPECT_EQ(scene.solve().status, PathStatus::Solved) << i << isBroadside;
         }
@@ -298,7 +302,7 @@ TEST(PathSolverDegenerate, EllipsoidsAsThinAsOneToTwentyAreSolvedFromAnywhere) {
 // Symptom (2026-11-22): segments of length 0 with e = 0 where both ends lie on the surface itself.
 TEST(PathSolverDegenerate, EndsOnTheSurfaceLeaveUnitDirections) {
     PathScene scene;
-    scene.point(Vec3(-0.5, 0, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose()).point(Vec3(0.5, 0, 0));
+    scene.point(Vector3(-0.5, 0, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose()).point(Vector3(0.5, 0, 0));
     expectDrawable(scene, scene.solve());
 }
 
@@ -307,14 +311,16 @@ TEST(PathSolverDegenerate, PathFromAPointOnTheSurfaceLeavesItAlongAGeodesic) {
     // Half around the cylinder, and a quarter and a bit to a tangent line; heights of 1e-7 radii change 1e-10 of
     // length.
     PathScene around;
-    around.point(Vec3(-0.5, 0, 0)).obstacle(std::make_shared<Cylinder>(0.5), Pose(), Vec3(0, 0.5, 0));
-    around.point(Vec3(0.5, 0, 0));
+    around.point(Vector3(-0.5, 0, 0)).obstacle(std::make_shared<Cylinder>(0.5), Pose(), Vector3(0, 0.5, 0));
+    around.point(Vector3(0.5, 0, 0));
     const PathSolution half = around.solve();
     EXPECT_EQ(half.status, PathStatus::Solved);
     EXPECT_NEAR(half.length, kPi / 2, 1e-9);
-    for (const std::optional<Vec3>& hint : {std::optional<Vec3>(), std::optional<Vec3>(Vec3(0, 0.5, 0))}) {
+    for (const std::optional<Vector3>& hint : {std::optional<Vector3>(), std::optional<Vector3>(Vector3(0, 0.5, 0))}) {
         PathScene away;
-        away.point(Vec3(-0.5, 0, 0)).obstacle(std::make_shared<Cylinder>(0.5), Pose(), hint).point(Vec3(3, 0.3, 0));
+        away.point(Vector3(-0.5, 0, 0))
+            .obstacle(std::make_shared<Cylinder>(0.5), Pose(), hint)
+            .point(Vector3(3, 0.3, 0));
         const PathSolution path = away.solve();
         const double distance = std::hypot(3, 0.3);
         const double turn = kPi - std::atan2(0.3, 3) - std::acos(0.5 / distance);
@@ -325,7 +331,7 @@ TEST(PathSolverDegenerate, PathFromAPointOnTheSurfaceLeavesItAlongAGeodesic) {
 
 TEST(PathSolverDegenerate, LineAlongTheAxisOfATorusRunsThroughItsHole) {
     PathScene scene;
-    scene.point(Vec3(0, 0, -3)).obstacle(std::make_shared<Torus>(1, 0.25), Pose()).point(Vec3(0, 0, 3));
+    scene.point(Vector3(0, 0, -3)).obstacle(std::make_shared<Torus>(1, 0.25), Pose()).point(Vector3(0, 0, 3));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::Solved);
     EXPECT_EQ(path.length, 6);
@@ -334,9 +340,9 @@ TEST(PathSolverDegenerate, LineAlongTheAxisOfATorusRunsThroughItsHole) {
 TEST(PathSolverDegenerate, LineThatJustTouchesHasItsOwnLength) {
     for (double y : {0.5, 0.5 - 1e-12, 0.5 + 1e-12, 0.5 - 1e-9}) {
         PathScene scene;
-        scene.point(Vec3(-1, y, 0))
-            .obstacle(std::make_shared<Sphere>(0.5), Pose(), Vec3(0, 0.5, 0))
-            .point(Vec3(2, y, 0));
+        scene.point(Vector3(-1, y, 0))
+            .obstacle(std::make_shared<Sphere>(0.5), Pose(), Vector3(0, 0.5, 0))
+            .point(Vector3(2, y, 0));
         const PathSolution path = scene.solve();
         EXPECT_EQ(path.status, PathStatus::Solved) << y;
         EXPECT_NEAR(path.length, 3, 1e-14) << y;  // a dip of 1e-9 lengthens by its square

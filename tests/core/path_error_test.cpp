@@ -54,7 +54,7 @@ TEST(PathError, RowsAreProjectionsOfTheSegmentsOnTheEndFrames) {  // Eqn. 4.3
     const double largest = calcPathError(chain, eps);
     ASSERT_EQ(eps.size(), 8u);
     const ChainContact& second = chain.contacts[1];
-    const Vec3 e = (second.P.x - chain.contacts[0].Q.x).normalized();
+    const Vector3 e = (second.P.x - chain.contacts[0].Q.x).normalized();
     EXPECT_NEAR(eps[2], e.dot(chain.contacts[0].Q.N), 1e-15);
     EXPECT_NEAR(eps[3], e.dot(chain.contacts[0].Q.B), 1e-15);
     EXPECT_NEAR(eps[4], e.dot(second.P.N), 1e-15);

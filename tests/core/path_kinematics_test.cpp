@@ -21,38 +21,38 @@ struct MovingScene {
     explicit MovingScene(unsigned seed) {
         Random random(seed);
         const std::shared_ptr<const Surface> surfaces[] = {
-            std::make_shared<Cylinder>(0.4), std::make_shared<Ellipsoid>(Vec3(0.45, 0.4, 0.9)),
+            std::make_shared<Cylinder>(0.4), std::make_shared<Ellipsoid>(Vector3(0.45, 0.4, 0.9)),
             std::make_shared<Torus>(2.0, 0.3), std::make_shared<Sphere>(0.4)};
         problem.addPoint("origin");
-        pose.X_GE.emplace_back(random.rotation(), Vec3(-1, 0, 0) + random.vector(0.1));
+        pose.X_GE.emplace_back(random.rotation(), Vector3(-1, 0, 0) + random.vector(0.1));
         for (int i = 0; i < 4; ++i) {
             // Over even ones and under odd ones, held between the neighbors. The tube of the torus passes
             // through (2, 0, 0) along z.
             const int side = i % 2 == 0 ? 1 : -1;
-            Vec3 hint(0, 0.4 * side, 0), center(i, -0.25 * side, 0);
-            Mat3 R = Mat3::Identity();
+            Vector3 hint(0, 0.4 * side, 0), center(i, -0.25 * side, 0);
+            Matrix3 R = Matrix3::Identity();
             if (i == 2) {
                 // z_S = x_G turned into the ring's axis along y: the ring lies in the plane of x and z.
-                R = Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()).toRotationMatrix();
-                hint = Vec3(-2, 0, -0.3 * side), center += Vec3(2, 0.1 * side, 0);
+                R = Eigen::AngleAxisd(kPi / 2, Vector3::UnitX()).toRotationMatrix();
+                hint = Vector3(-2, 0, -0.3 * side), center += Vector3(2, 0.1 * side, 0);
             }
             problem.addObstacle("obstacle" + std::to_string(i), surfaces[i], hint);
-            const Mat3 tilt = Eigen::AngleAxisd(random.uniform(-0.1, 0.1), random.unitVector()).toRotationMatrix();
+            const Matrix3 tilt = Eigen::AngleAxisd(random.uniform(-0.1, 0.1), random.unitVector()).toRotationMatrix();
             pose.X_GE.emplace_back(tilt * R, center + random.vector(0.05));
             if (i == 1) {
                 problem.addPoint("via");
-                pose.X_GE.emplace_back(random.rotation(), Vec3(1.5, 0, 0) + random.vector(0.05));
+                pose.X_GE.emplace_back(random.rotation(), Vector3(1.5, 0, 0) + random.vector(0.05));
             }
         }
         problem.addPoint("insertion");
-        pose.X_GE.emplace_back(random.rotation(), Vec3(4, 0, 0) + random.vector(0.1));
+        pose.X_GE.emplace_back(random.rotation(), Vector3(4, 0, 0) + random.vector(0.1));
         for (std::size_t e = 0; e < pose.X_GE.size(); ++e) velocity.push_back({random.vector(1), random.vector(1)});
     }
 
     PathPose calcPoseAt(double t) const {
         PathPose moved = pose;
         for (std::size_t e = 0; e < pose.X_GE.size(); ++e) {
-            const Vec3 turn = velocity[e].w * t;
+            const Vector3 turn = velocity[e].w * t;
             if (turn.norm() > 0)
                 moved.X_GE[e].R = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * pose.X_GE[e].R;
             moved.X_GE[e].p += velocity[e].v * t;
@@ -89,7 +89,7 @@ void expectBalanceAndPower(const MovingScene& scene, const PathSolution& path) {
     std::vector<SpatialForce> F;
     calcUnitForces(path, scene.pose, F);
     ASSERT_EQ(F.size(), scene.pose.X_GE.size());
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
     double power = 0;
     for (std::size_t e = 0; e < F.size(); ++e) {
         force += F[e].force;
@@ -139,7 +139,7 @@ TEST(PathKinematics, SegmentEndsFollowTheElementsWithoutRelativeMotion) {
 TEST(PathKinematics, DrawingPointsRunAlongThePath) {
     const MovingScene scene(402);
     const PathSolution path = solvePath(scene.problem, scene.pose);
-    std::vector<Vec3> points;
+    std::vector<Vector3> points;
     calcDrawingPoints(path, scene.problem, scene.pose, 0.01, points);
     double polygon = 0;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) polygon += (points[i + 1] - points[i]).norm();
@@ -165,7 +165,7 @@ TEST(PathKinematics, RefusesTooFewVelocitiesAndAnglesThatAreNotPositive) {
     EXPECT_EQ(findRefusal([&] { calcLengthRate(path, scene.pose, few); }),
               "length rate: got " + std::to_string(few.size()) + " velocities for " +
                   std::to_string(scene.velocity.size()) + " elements");
-    std::vector<Vec3> points;
+    std::vector<Vector3> points;
     for (const double angle : {0.0, -0.5, kNaN}) {
         const std::string refusal =
             findRefusal([&] { calcDrawingPoints(path, scene.problem, scene.pose, angle, points); });

@@ -38,11 +38,11 @@ TEST(PathSolverRefuses, OptionsOutOfRangeWithNameAndValue) {
 TEST(PathSolverRefuses, ProblemsThatAreNoPath) {
     const auto sphere = std::make_shared<Sphere>(1);
     expectRefused("'ghost' has no surface", [] { PathProblem().addObstacle("ghost", nullptr); });
-    expectRefused("must be finite", [&] { PathProblem().addObstacle("s", sphere, Vec3(0, kNaN, 0)); });
+    expectRefused("must be finite", [&] { PathProblem().addObstacle("s", sphere, Vector3(0, kNaN, 0)); });
     expectRefused("is a point and takes no hint", [] {
         PathProblem problem;
         problem.addPoint("o");
-        problem.setHint(0, Vec3::UnitX());
+        problem.setHint(0, Vector3::UnitX());
     });
     expectRefused("no element 7", [] { PathProblem().setHint(7, std::nullopt); });
     expectRefused("needs an origin and an insertion", [] { PathProblem().validate(); });
@@ -60,19 +60,19 @@ TEST(PathSolverRefuses, ProblemsThatAreNoPath) {
     });
     expectRefused("2 poses for 3 elements", [&] {
         PathScene scene;
-        scene.point(Vec3(0, 0, 0)).obstacle(sphere, Pose()).point(Vec3(3, 0, 0));
+        scene.point(Vector3(0, 0, 0)).obstacle(sphere, Pose()).point(Vector3(3, 0, 0));
         scene.pose.X_GE.pop_back();
         scene.solve();
     });
     expectRefused("isActive has 1 entries for 3 elements", [&] {
         PathScene scene;
-        scene.point(Vec3(0, 0, 0)).obstacle(sphere, Pose()).point(Vec3(3, 0, 0));
+        scene.point(Vector3(0, 0, 0)).obstacle(sphere, Pose()).point(Vector3(3, 0, 0));
         scene.pose.isActive = {1};
         scene.solve();
     });
     expectRefused("needs a path that was solved before", [&] {
         PathScene scene;
-        scene.point(Vec3(0, 0, 0)).point(Vec3(3, 0, 0));
+        scene.point(Vector3(0, 0, 0)).point(Vector3(3, 0, 0));
         PathSolution empty;
         PathSolver().solveKeepingContacts(scene.problem, scene.pose, empty);
     });
@@ -81,7 +81,7 @@ TEST(PathSolverRefuses, ProblemsThatAreNoPath) {
 TEST(PathSolverRefuses, ShapesWithBadDimensions) {
     expectRefused("sphere: radius must be positive and finite, but is -1", [] { Sphere(-1); });
     expectRefused("cylinder: radius", [] { Cylinder{kNaN}; });
-    expectRefused("ellipsoid: semi-axis y", [] { Ellipsoid(Vec3(1, 0, 1)); });
+    expectRefused("ellipsoid: semi-axis y", [] { Ellipsoid(Vector3(1, 0, 1)); });
     expectRefused("tube radius 2 must be less than the ring radius 1", [] { Torus(1, 2); });
 }
 

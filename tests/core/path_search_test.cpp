@@ -18,7 +18,7 @@
 namespace tautline::testing {
 namespace {
 
-PathScene makeScene(std::shared_ptr<const Surface> surface, const StartHint& hint, const Vec3& A, const Vec3& B) {
+PathScene makeScene(std::shared_ptr<const Surface> surface, const StartHint& hint, const Vector3& A, const Vector3& B) {
     PathScene scene;
     scene.point(A).obstacle(std::move(surface), Pose()).point(B);
     scene.problem.setHint(1, hint);
@@ -26,8 +26,8 @@ PathScene makeScene(std::shared_ptr<const Surface> surface, const StartHint& hin
 }
 
 TEST(StartStrategy, InsertedAnswersAnOrdinaryColdSolve) {
-    const PathScene scene =
-        makeScene(std::make_shared<Cylinder>(0.5), PassNear{Vec3(0, 0.5, 0)}, Vec3(-2, 0.1, 0), Vec3(2, 0.2, 0.3));
+    const PathScene scene = makeScene(std::make_shared<Cylinder>(0.5), PassNear{Vector3(0, 0.5, 0)},
+                                      Vector3(-2, 0.1, 0), Vector3(2, 0.2, 0.3));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.report.strategy, StartStrategy::Inserted);
     EXPECT_EQ(path.report.bandLevel, 0);
@@ -39,7 +39,7 @@ TEST(StartStrategy, InsertedAnswersAnOrdinaryColdSolve) {
 TEST(StartStrategy, AnObstacleIsTouchedByTheArcOfItsCircle) {
     for (const double depth : {1e-6, 1e-3, 0.1, 0.4}) {
         const PathScene scene =
-            makeScene(std::make_shared<Cylinder>(0.5), {}, Vec3(-20, 0.5 - depth, 0), Vec3(0.7, 0.5 - depth, 0));
+            makeScene(std::make_shared<Cylinder>(0.5), {}, Vector3(-20, 0.5 - depth, 0), Vector3(0.7, 0.5 - depth, 0));
         const PathSolution path = scene.solve();
         EXPECT_EQ(path.status, PathStatus::Solved) << "depth " << depth;
         EXPECT_LE(path.iterations, 1) << "depth " << depth;
@@ -60,7 +60,7 @@ TEST(StartStrategy, SidesOfALongChainAreFollowed) {
 }
 
 TEST(StartStrategy, ContinuedAnswersAWarmSolve) {
-    const PathScene scene = makeScene(std::make_shared<Cylinder>(0.5), {}, Vec3(-2, 0.1, 0), Vec3(2, 0.2, 0.3));
+    const PathScene scene = makeScene(std::make_shared<Cylinder>(0.5), {}, Vector3(-2, 0.1, 0), Vector3(2, 0.2, 0.3));
     PathSolution path = scene.solve();
     PathSolver().solve(scene.problem, scene.pose, path);
     EXPECT_EQ(path.report.strategy, StartStrategy::Continued);
@@ -81,9 +81,9 @@ TEST(StartStrategy, BandAnswersWhereInsertionStrays) {
 
 // A ring that jumps from around the string to beside it: only a string laid along the previous path stays threaded.
 TEST(StartStrategy, AlongPreviousKeepsAStringInARingThatJumps) {
-    PathScene scene = makeScene(std::make_shared<Torus>(1, 0.2), {}, Vec3(0, 0.1, -3), Vec3(0.1, 0, 3));
+    PathScene scene = makeScene(std::make_shared<Torus>(1, 0.2), {}, Vector3(0, 0.1, -3), Vector3(0.1, 0, 3));
     PathSolution path = scene.solve();
-    scene.pose.X_GE[1].p = Vec3(0, 2, 0);
+    scene.pose.X_GE[1].p = Vector3(0, 2, 0);
     PathSolver().solve(scene.problem, scene.pose, path);
     EXPECT_EQ(path.status, PathStatus::Solved);
     EXPECT_EQ(path.contacts[1].passage.count, 1);
@@ -93,7 +93,7 @@ TEST(StartStrategy, AlongPreviousKeepsAStringInARingThatJumps) {
 // Two spheres of radius 0.025 that overlap, asked for on their +x side: the string rests in the groove between them, at
 // 0.432346. Nodes of a coarse band are too far apart for it, and slip off to 0.417617 on the other side.
 TEST(StartStrategy, AFinerBandRestsInTheGrooveThatACoarseOneSlipsOff) {
-    const GrooveScene scene(Vec3(0.02, 0.2, 0.001), Vec3(-0.1, -0.2, -0.001));
+    const GrooveScene scene(Vector3(0.02, 0.2, 0.001), Vector3(-0.1, -0.2, -0.001));
     const PathSolution path = solvePath(scene.path.problem, scene.path.pose);
     EXPECT_EQ(path.status, PathStatus::NotMinimum);
     EXPECT_EQ(path.fault.kind, StringFault::Kind::Groove);
@@ -104,7 +104,8 @@ TEST(StartStrategy, AFinerBandRestsInTheGrooveThatACoarseOneSlipsOff) {
 
 // A string wound about a sphere slips off, and what it becomes is said.
 TEST(StartStrategy, AStringThatSlipsOffItsRouteIsAMinimumElsewhere) {
-    const PathScene scene = makeScene(std::make_shared<Sphere>(1), WindAround{3}, Vec3(-3, 0.2, 0.1), Vec3(3, 0.3, 0));
+    const PathScene scene =
+        makeScene(std::make_shared<Sphere>(1), WindAround{3}, Vector3(-3, 0.2, 0.1), Vector3(3, 0.3, 0));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::Solved);
     EXPECT_EQ(path.deviation.kind, RouteDeviation::Kind::Winding);
@@ -112,7 +113,7 @@ TEST(StartStrategy, AStringThatSlipsOffItsRouteIsAMinimumElsewhere) {
 }
 
 /** Length over a circle of radius r about the origin that turns by `sweep` from A to B [rad], in a plane. */
-double calcLengthAround(double r, const Vec3& A, const Vec3& B, double sweep) {
+double calcLengthAround(double r, const Vector3& A, const Vector3& B, double sweep) {
     const double a = A.head<2>().norm(), b = B.head<2>().norm();
     return std::sqrt(a * a - r * r) + std::sqrt(b * b - r * r) +
            r * (std::abs(sweep) - std::acos(r / a) - std::acos(r / b));
@@ -121,12 +122,12 @@ double calcLengthAround(double r, const Vec3& A, const Vec3& B, double sweep) {
 // Symptom (2026-11-26): straight, 5.38516481 and 4.47213595, on the other side, and solved.
 TEST(Side, IsADemandAlsoWhereTheStraightLineIsClearOnTheOther) {
     const auto cylinder = std::make_shared<Cylinder>(1);
-    const Vec3 A1(1, 2, 0), B1(-4, 0, 0), A2(-1, 3, 0), B2(-3, -1, 0);
-    const PathSolution first = makeScene(cylinder, PassOnSide{Vec3(1, 0, 0)}, A1, B1).solve();
+    const Vector3 A1(1, 2, 0), B1(-4, 0, 0), A2(-1, 3, 0), B2(-3, -1, 0);
+    const PathSolution first = makeScene(cylinder, PassOnSide{Vector3(1, 0, 0)}, A1, B1).solve();
     EXPECT_EQ(first.status, PathStatus::Solved);
     EXPECT_NEAR(first.length, calcLengthAround(1, A1, B1, kPi + std::atan2(2, 1)), 1e-10);
     EXPECT_NEAR(first.length, 7.69645993, 1e-8);
-    const PathSolution second = makeScene(cylinder, PassOnSide{Vec3(1, 0, 0)}, A2, B2).solve();
+    const PathSolution second = makeScene(cylinder, PassOnSide{Vector3(1, 0, 0)}, A2, B2).solve();
     EXPECT_NEAR(second.length, calcLengthAround(1, A2, B2, 1.5 * kPi), 1e-10);
     EXPECT_NEAR(second.length, 8.21429744, 1e-8);
 }
@@ -139,18 +140,18 @@ TEST(Side, OfEndlessBodiesIsAlwaysTakenOrSaid) {
     for (int i = 0; i < kScenes; ++i) {
         const auto body = std::make_shared<EllipticCylinder>(1, random.uniform(0.7, 1.3));
         const double azimuth = random.uniform(-kPi, kPi);
-        const Vec3 side(std::cos(azimuth), std::sin(azimuth), 0);
+        const Vector3 side(std::cos(azimuth), std::sin(azimuth), 0);
         const auto makeEnd = [&] {
             const double at = random.uniform(-kPi, kPi), rho = random.uniform(1.5, 5);
-            return Vec3(rho * std::cos(at), rho * std::sin(at), random.uniform(-1, 1));
+            return Vector3(rho * std::cos(at), rho * std::sin(at), random.uniform(-1, 1));
         };
         const PathScene scene = makeScene(body, PassOnSide{side}, makeEnd(), makeEnd());
         const PathSolution path = scene.solve();
         ASSERT_EQ(path.status, PathStatus::Solved) << i;
         const ObstacleContact& contact = path.contacts[1];
-        std::vector<Vec3> points;
-        if (contact.isTouched) sampleGeodesic(*body, contact.start, GeodesicOptions(), 3, points);
-        const Vec3 middle = contact.isTouched ? points[1] : contact.clearance.C.p;
+        std::vector<Vector3> points;
+        if (contact.isTouched) sampleGeodesic(*body, contact.start, ShootingOptions(), 3, points);
+        const Vector3 middle = contact.isTouched ? points[1] : contact.clearance.C.p;
         if (std::abs(side.dot(middle)) < 1e-3) continue;
         EXPECT_EQ(path.followsHints(), side.dot(middle) > 0) << i;
         numFollowed += path.followsHints();
@@ -160,8 +161,9 @@ TEST(Side, OfEndlessBodiesIsAlwaysTakenOrSaid) {
 
 // Symptom (2026-11-26): 99.098 mm round the outside, solved. It lies on the ring in two places.
 TEST(Ring, ThatTheStringTouchesTwiceIsNotPassedOutside) {
-    const PathScene scene = makeScene(std::make_shared<Torus>(0.011, 0.0105), {},
-                                      Vec3(-2.729e-3, -11.964e-3, -29.629e-3), Vec3(2.853e-3, 19.488e-3, 53.593e-3));
+    const PathScene scene =
+        makeScene(std::make_shared<Torus>(0.011, 0.0105), {}, Vector3(-2.729e-3, -11.964e-3, -29.629e-3),
+                  Vector3(2.853e-3, 19.488e-3, 53.593e-3));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::Solved) << explainStatus(scene.problem, scene.pose, path);
     EXPECT_EQ(path.contacts[1].getNumArcs(), 2);
@@ -171,10 +173,10 @@ TEST(Ring, ThatTheStringTouchesTwiceIsNotPassedOutside) {
 /** A string that is drawn down by its ends into the groove between two spheres that overlap. */
 PathScene makeGroove(double depth) {
     PathScene scene;
-    scene.point(Vec3(0.03, 0.2, 0));
+    scene.point(Vector3(0.03, 0.2, 0));
     for (const double z : {0.018, -0.018})
-        scene.obstacle(std::make_shared<Sphere>(0.025), Pose(Vec3(0, 0, z)), Vec3(0.025, 0, 0));
-    scene.point(Vec3(0.03 - depth, -0.2, 0));
+        scene.obstacle(std::make_shared<Sphere>(0.025), Pose(Vector3(0, 0, z)), Vector3(0.025, 0, 0));
+    scene.point(Vector3(0.03 - depth, -0.2, 0));
     return scene;
 }
 
@@ -188,7 +190,7 @@ TEST(Groove, YieldsAPathWhoseRateIsTheDerivativeOfItsLength) {
         EXPECT_LT(path.pathError, 1e-11);
         EXPECT_NE(explainStatus(scene.problem, scene.pose, path).find("in the groove between"), std::string::npos);
         std::vector<SpatialVelocity> V(4);
-        V[3].v = Vec3(-1, 0.3, 0.2);
+        V[3].v = Vector3(-1, 0.3, 0.2);
         const double rate = calcLengthRate(path, scene.pose, V), h = 1e-6;
         double length[2];
         for (const int i : {0, 1}) {
@@ -201,7 +203,7 @@ TEST(Groove, YieldsAPathWhoseRateIsTheDerivativeOfItsLength) {
         EXPECT_NEAR((length[1] - length[0]) / (2 * h), rate, 1e-6);
         std::vector<SpatialForce> F;
         calcUnitForces(path, scene.pose, F);
-        Vec3 sum = Vec3::Zero();
+        Vector3 sum = Vector3::Zero();
         for (const SpatialForce& f : F) sum += f.force;
         EXPECT_LT(sum.norm(), 1e-12);
     }
@@ -228,13 +230,13 @@ TEST(FarScene, HasTheSamePathAtAnyDistanceFromGroundsOrigin) {
     Random random(11);
     for (int i = 0; i < 20; ++i) {
         PathScene scene;
-        scene.point(Vec3(-0.1, 0, 0) + random.vector(0.01));
+        scene.point(Vector3(-0.1, 0, 0) + random.vector(0.01));
         scene.obstacle(std::make_shared<Cylinder>(0.03), Pose(random.rotation(), random.vector(0.01)));
-        scene.obstacle(std::make_shared<Sphere>(0.02), Pose(Vec3(0.07, -0.03, 0) + random.vector(0.005)));
-        scene.point(Vec3(0.15, 0, 0) + random.vector(0.01));
+        scene.obstacle(std::make_shared<Sphere>(0.02), Pose(Vector3(0.07, -0.03, 0) + random.vector(0.005)));
+        scene.point(Vector3(0.15, 0, 0) + random.vector(0.01));
         const PathSolution here = scene.solve();
         for (const double far : {1e4, 1e5}) {
-            const Vec3 shift = far * Vec3(0.6, -0.48, 0.64);
+            const Vector3 shift = far * Vector3(0.6, -0.48, 0.64);
             const PathScene there = scene.movedBy(Pose(shift));
             const PathSolution path = there.solve();
             EXPECT_EQ(path.status, here.status) << i;
@@ -248,7 +250,7 @@ TEST(FarScene, HasTheSamePathAtAnyDistanceFromGroundsOrigin) {
 
 // Symptom (2026-11-26): a crash.
 TEST(PathSolver, ThatWasMovedFromSolvesAgain) {
-    const PathScene scene = makeScene(std::make_shared<Cylinder>(0.5), {}, Vec3(-2, 0.1, 0), Vec3(2, 0.2, 0.3));
+    const PathScene scene = makeScene(std::make_shared<Cylinder>(0.5), {}, Vector3(-2, 0.1, 0), Vector3(2, 0.2, 0.3));
     PathSolver solver;
     const PathSolver moved = std::move(solver);
     PathSolution path;
@@ -261,12 +263,12 @@ TEST(PathSolver, ThatWasMovedFromSolvesAgain) {
 // either side, by the second order of the move.
 TEST(SecondVariation, DirectionOfNegativeCurvatureLeadsDownToEitherSide) {
     const PathScene scene =
-        makeScene(std::make_shared<Sphere>(1), PassNear{Vec3(0, 1, 0)}, Vec3(-3, -0.1, 0), Vec3(3, -0.1, 0));
+        makeScene(std::make_shared<Sphere>(1), PassNear{Vector3(0, 1, 0)}, Vector3(-3, -0.1, 0), Vector3(3, -0.1, 0));
     PathSolution saddle;
     saddle.contacts.resize(3);
     saddle.contacts[1].isTouched = true;
-    saddle.contacts[1].start = {scene.problem.getElement(1).surface->findSurfacePoint(Vec3(-0.3, 1, 0)),
-                                Vec3(1, 0.3, 0), 0.6};
+    saddle.contacts[1].start = {scene.problem.getElement(1).surface->findSurfacePoint(Vector3(-0.3, 1, 0)),
+                                Vector3(1, 0.3, 0), 0.6};
     PathSolver solver;
     solver.solveKeepingContacts(scene.problem, scene.pose, saddle);
     ASSERT_EQ(saddle.status, PathStatus::Solved);
@@ -277,7 +279,7 @@ TEST(SecondVariation, DirectionOfNegativeCurvatureLeadsDownToEitherSide) {
     ASSERT_EQ(direction.size(), saddle.segments.size());
     EXPECT_EQ(direction[0].cwiseAbs().maxCoeff(), 1);
     EXPECT_TRUE(direction[1].isZero());
-    const Vec3 sideways = saddle.contacts[1].geodesic.P.B * direction[0][0];
+    const Vector3 sideways = saddle.contacts[1].geodesic.P.B * direction[0][0];
     for (const double amount : {0.05, -0.05}) {
         PathSolution moved = saddle;
         ASSERT_TRUE(moveAlongNegativeCurvature(posed, amount, moved));

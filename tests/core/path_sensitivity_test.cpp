@@ -29,16 +29,16 @@ struct MixedScene {
 
     MixedScene() {
         problem.addPoint("origin");
-        problem.addObstacle("cylinder", std::make_shared<Cylinder>(0.6), Vec3(0, 0.6, 0));
-        problem.addObstacle("torus", std::make_shared<Torus>(0.9, 0.3), Vec3(0.62, 0, 0));
+        problem.addObstacle("cylinder", std::make_shared<Cylinder>(0.6), Vector3(0, 0.6, 0));
+        problem.addObstacle("torus", std::make_shared<Torus>(0.9, 0.3), Vector3(0.62, 0, 0));
         problem.addPoint("via");
-        problem.addObstacle("ellipsoid", std::make_shared<Ellipsoid>(Vec3(0.9, 0.55, 0.7)), Vec3(0, 0.55, 0));
-        problem.addObstacle("sphere", std::make_shared<Sphere>(0.4), Vec3(0, -0.4, 0));
+        problem.addObstacle("ellipsoid", std::make_shared<Ellipsoid>(Vector3(0.9, 0.55, 0.7)), Vector3(0, 0.55, 0));
+        problem.addObstacle("sphere", std::make_shared<Sphere>(0.4), Vector3(0, -0.4, 0));
         problem.addPoint("insertion");
-        const Mat3 across = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
-        pose.X_GE = {Pose(Vec3(-0.4, -0.7, 0.5)), Pose(Vec3(0.8, 0.0, 0)), Pose(across, Vec3(2.6, 0.9, 0.1)),
-                     Pose(Vec3(3.2, -0.6, 0.1)),  Pose(Vec3(4.4, 0.1, 0)), Pose(Vec3(5.9, 0.4, -0.2)),
-                     Pose(Vec3(6.8, 0.6, -0.3))};
+        const Matrix3 across = Eigen::AngleAxisd(kPi / 2, Vector3::UnitY()).toRotationMatrix();
+        pose.X_GE = {Pose(Vector3(-0.4, -0.7, 0.5)), Pose(Vector3(0.8, 0.0, 0)), Pose(across, Vector3(2.6, 0.9, 0.1)),
+                     Pose(Vector3(3.2, -0.6, 0.1)),  Pose(Vector3(4.4, 0.1, 0)), Pose(Vector3(5.9, 0.4, -0.2)),
+                     Pose(Vector3(6.8, 0.6, -0.3))};
         solver.solve(problem, pose, path);
     }
 
@@ -65,7 +65,7 @@ std::vector<SpatialVelocity> makeMotion(unsigned seed, std::size_t n) {
     std::mt19937 random(seed);
     const auto number = [&random] { return 2 * (random() / static_cast<double>(std::mt19937::max())) - 1; };
     std::vector<SpatialVelocity> V(n);
-    for (SpatialVelocity& v : V) v = {Vec3(number(), number(), number()), Vec3(number(), number(), number())};
+    for (SpatialVelocity& v : V) v = {Vector3(number(), number(), number()), Vector3(number(), number(), number())};
     return V;
 }
 
@@ -123,8 +123,8 @@ TEST(PathSensitivity, RatesOfForcesAndContactPointsAreTheirDifferences) {
         const Eigen::VectorXd difference =
             calcDifference([&](double h) { return collect(scene, scene.solveMoved(V, h), scene.calcMovedPose(V, h)); });
         for (std::size_t e = 0; e < scene.pose.X_GE.size(); ++e) {
-            const Vec3 rates[] = {variation.forceRate[e].force, variation.forceRate[e].moment, variation.PRate[e],
-                                  variation.QRate[e]};
+            const Vector3 rates[] = {variation.forceRate[e].force, variation.forceRate[e].moment, variation.PRate[e],
+                                     variation.QRate[e]};
             for (int k = 0; k < 4; ++k) {
                 const double error =
                     (rates[k] - difference.segment<3>(12 * e + 3 * k)).norm() / std::max(1.0, rates[k].norm());
@@ -171,12 +171,12 @@ TEST(PathSensitivity, RigidMotionOfEverythingChangesNothing) {
     PathSensitivity sensitivity;
     PathVariation variation;
     sensitivity.setPath(scene.problem, scene.pose, scene.path);
-    const Vec3 w(0.3, -0.5, 0.7), v(1, 2, -1);
+    const Vector3 w(0.3, -0.5, 0.7), v(1, 2, -1);
     std::vector<SpatialVelocity> V;
     for (const Pose& X : scene.pose.X_GE) V.push_back({w, v + w.cross(X.p)});
     ASSERT_TRUE(sensitivity.calcVariation(V, variation));
     EXPECT_NEAR(variation.lengthRate, 0, 1e-13);
-    for (const Vec4& rate : variation.xiRate) EXPECT_LT(rate.norm(), 1e-11);
+    for (const Vector4& rate : variation.xiRate) EXPECT_LT(rate.norm(), 1e-11);
 }
 
 /** Path error with which a solve of the moved scene begins. */

@@ -41,8 +41,8 @@ TEST(PathSolver, KeptContactStaysSmoothPastLiftOff) {
     // A cylinder sinks away below the line y = 0; the closed form holds on with arcs below zero.
     const double r = 0.4;
     PathScene scene;
-    scene.point(Vec3(-1, 0, 0)).obstacle(std::make_shared<Cylinder>(r), Pose(Vec3(0, -0.3, 0)), Vec3(0, r, 0));
-    scene.point(Vec3(1.5, 0, 0));
+    scene.point(Vector3(-1, 0, 0)).obstacle(std::make_shared<Cylinder>(r), Pose(Vector3(0, -0.3, 0)), Vector3(0, r, 0));
+    scene.point(Vector3(1.5, 0, 0));
     PathSolver solver;
     PathSolution path = scene.solve();
     ASSERT_TRUE(path.contacts[1].isTouched);
@@ -50,7 +50,7 @@ TEST(PathSolver, KeptContactStaysSmoothPastLiftOff) {
         scene.pose.X_GE[1].p.y() = top - r;
         solver.solveKeepingContacts(scene.problem, scene.pose, path);
         EXPECT_EQ(path.status, PathStatus::Solved) << top;
-        const std::vector<PlanarStop> stops = {{Vec2(-1, 0)}, {Vec2(0, top - r), r, -1}, {Vec2(1.5, 0)}};
+        const std::vector<PlanarStop> stops = {{Vector2(-1, 0)}, {Vector2(0, top - r), r, -1}, {Vector2(1.5, 0)}};
         EXPECT_NEAR(path.length, calcPlanarLength(stops, false), 1e-13) << top;
         EXPECT_EQ(path.contacts[1].start.length < -1e-12, top < -1e-9) << top;
     }
@@ -61,13 +61,16 @@ TEST(PathSolver, KeptContactStaysSmoothPastLiftOff) {
 
 TEST(PathSolver, SwitchedOffElementIsPassedOver) {
     PathScene scene;
-    scene.point(Vec3(0, 0, 0)).point(Vec3(1, 1, 0)).obstacle(std::make_shared<Sphere>(0.2), Pose(Vec3(1.5, 0.1, 0)));
-    scene.point(Vec3(2, 0, 0));
+    scene.point(Vector3(0, 0, 0))
+        .point(Vector3(1, 1, 0))
+        .obstacle(std::make_shared<Sphere>(0.2), Pose(Vector3(1.5, 0.1, 0)));
+    scene.point(Vector3(2, 0, 0));
     const double withAll = scene.solve().length;
     scene.pose.isActive = {1, 0, 1, 1};
     const PathSolution withoutPoint = scene.solve();
     EXPECT_EQ(withoutPoint.status, PathStatus::Solved);
-    EXPECT_NEAR(withoutPoint.length, calcPlanarLength({{Vec2(0, 0)}, {Vec2(1.5, -0.1), 0.2, 1}, {Vec2(2, 0)}}), 0.5);
+    EXPECT_NEAR(withoutPoint.length, calcPlanarLength({{Vector2(0, 0)}, {Vector2(1.5, -0.1), 0.2, 1}, {Vector2(2, 0)}}),
+                0.5);
     EXPECT_LT(withoutPoint.length, withAll);
     scene.pose.isActive = {1, 0, 0, 1};
     EXPECT_NEAR(scene.solve().length, 2, 1e-15);
@@ -112,8 +115,8 @@ PathScene makeArcOver(std::shared_ptr<const Surface> surface) {
 }
 
 const std::vector<std::shared_ptr<const Surface>> kArcSurfaces = {
-    std::make_shared<Ellipsoid>(Vec3(1, 2, 1.2)), std::make_shared<Cylinder>(1), std::make_shared<Sphere>(1),
-    std::make_shared<ParametricEllipsoid>(Vec3(1, 2, 1.2))};
+    std::make_shared<Ellipsoid>(Vector3(1, 2, 1.2)), std::make_shared<Cylinder>(1), std::make_shared<Sphere>(1),
+    std::make_shared<ParametricEllipsoid>(Vector3(1, 2, 1.2))};
 
 TEST(PathSolver, ArcsThatAreKnownAreNotShotAgain) {
     for (const auto& surface : kArcSurfaces) {
@@ -135,12 +138,12 @@ TEST(PathSolver, ArcsThatAreKnownAreNotShotAgain) {
 }
 
 TEST(PathSolver, ArcsOfAnotherSurfaceOrAccuracyAreShotAgain) {
-    PathSolution path = makeArcOver(std::make_shared<Ellipsoid>(Vec3(1, 2, 1.2))).solve();
+    PathSolution path = makeArcOver(std::make_shared<Ellipsoid>(Vector3(1, 2, 1.2))).solve();
     // A copy is the same surface, another one of the same shape is not.
-    const Ellipsoid original(Vec3(1, 2, 1.2)), copy = original, twin(Vec3(1, 2, 1.2));
+    const Ellipsoid original(Vector3(1, 2, 1.2)), copy = original, twin(Vector3(1, 2, 1.2));
     EXPECT_EQ(copy.getId(), original.getId());
     EXPECT_NE(twin.getId(), original.getId());
-    const PathScene thin = makeArcOver(std::make_shared<Ellipsoid>(Vec3(0.9, 2, 1.1)));
+    const PathScene thin = makeArcOver(std::make_shared<Ellipsoid>(Vector3(0.9, 2, 1.1)));
     PathSolver solver;
     solver.solve(thin.problem, thin.pose, path);
     EXPECT_GT(path.shots, 0);
@@ -171,9 +174,9 @@ TEST(PathSolver, WarmSolveDoesNotAllocate) {
         EXPECT_FALSE(path.wasCold);
     }
     PathScene ring;  // that is touched in two places
-    ring.point(Vec3(-0.3, 0.02, 0.01))
+    ring.point(Vector3(-0.3, 0.02, 0.01))
         .obstacle(std::make_shared<Torus>(0.1, 0.03), Pose())
-        .point(Vec3(0.3, 0.01, 0.01));
+        .point(Vector3(0.3, 0.01, 0.01));
     PathSolver solver;
     PathSolution path;
     for (int i = 0; i < 6; ++i) {

@@ -15,11 +15,11 @@ namespace {
 struct PressedString {
     explicit PressedString(std::shared_ptr<const Surface> surface) {
         problem.addPoint("A");
-        problem.addObstacle("surface", std::move(surface), PassNear{Vec3(0, 1, 0)});
+        problem.addObstacle("surface", std::move(surface), PassNear{Vector3(0, 1, 0)});
         problem.addPoint("B");
         pose.X_GE.resize(3);
     }
-    void moveTo(double y) { pose.X_GE[0].p = Vec3(-l, y, 0), pose.X_GE[2].p = Vec3(l, y, 0); }
+    void moveTo(double y) { pose.X_GE[0].p = Vector3(-l, y, 0), pose.X_GE[2].p = Vector3(l, y, 0); }
 
     /** Half the angle of the arc, counted from the top. */
     static double calcHalfAngle(double y) { return std::atan2(l, y) - std::acos(1 / std::hypot(l, y)); }
@@ -50,7 +50,7 @@ PathSolution solveInPlane(PressedString& scene, double y) {
 // from the top. It comes to zero at the ends of tangents of length m where tan(s/c) = c/m.
 TEST(PathStability, TheMarginVanishesWhereAStringSlipsOff) {
     for (const double c : {0.3, 0.6, 0.9}) {
-        PressedString scene(std::make_shared<Ellipsoid>(Vec3(1, 1, c)));
+        PressedString scene(std::make_shared<Ellipsoid>(Vector3(1, 1, c)));
         const auto calcExcess = [&](double y) {
             const double m = std::sqrt(scene.l * scene.l + y * y - 1);
             return scene.calcHalfAngle(y) / c - std::atan2(c, m);
@@ -89,11 +89,11 @@ struct PassedSphere {
         problem.addPoint("A");
         problem.addObstacle("sphere", std::make_shared<Sphere>(0.05));
         problem.addPoint("B");
-        pose.X_GE = {Pose(Vec3(-1, 0, 0)), Pose(Vec3(0, 0.1, 0.03)), Pose()};
+        pose.X_GE = {Pose(Vector3(-1, 0, 0)), Pose(Vector3(0, 0.1, 0.03)), Pose()};
     }
     PathPose calcPose(double y) const {
         PathPose result = pose;
-        result.X_GE[2].p = Vec3(1, y, 0);
+        result.X_GE[2].p = Vector3(1, y, 0);
         return result;
     }
     PathProblem problem;
@@ -127,7 +127,7 @@ TEST(PathFollowing, ALongStepEndsOnThePathThatShortOnesLeadTo) {
 }
 
 TEST(PathFollowing, IsNotCarriedBeyondTheLossOfStability) {
-    PressedString scene(std::make_shared<Ellipsoid>(Vec3(1, 1, 0.3)));
+    PressedString scene(std::make_shared<Ellipsoid>(Vector3(1, 1, 0.3)));
     scene.moveTo(0.98);
     const PathPose from = scene.pose;
     PathSolver solver;

@@ -16,7 +16,9 @@ namespace {
 
 TEST(PathSolverStatus, EndInsideSwitchesTheObstacleOff) {
     PathScene scene;
-    scene.point(Vec3(0.1, 0, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose(), Vec3(0, 0.5, 0)).point(Vec3(2, 0, 0));
+    scene.point(Vector3(0.1, 0, 0))
+        .obstacle(std::make_shared<Sphere>(0.5), Pose(), Vector3(0, 0.5, 0))
+        .point(Vector3(2, 0, 0));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::EndInside);
     EXPECT_TRUE(path.contacts[1].isSwitchedOff);
@@ -31,7 +33,7 @@ TEST(PathSolverStatus, NotConvergedReturnsTheBestPathMet) {
     options.allowsColdStart = false;
     PathSolution path = scene.solve();
     PathScene moved = scene;
-    for (int e = 1; e < 5; ++e) moved.pose.X_GE[e].p += Vec3(0.1, -0.05, 0.1 * e);
+    for (int e = 1; e < 5; ++e) moved.pose.X_GE[e].p += Vector3(0.1, -0.05, 0.1 * e);
     PathSolver(options).solve(moved.problem, moved.pose, path);
     EXPECT_EQ(path.status, PathStatus::NotConverged);
     EXPECT_GT(path.pathError, options.pathErrorTolerance);
@@ -42,11 +44,11 @@ TEST(PathSolverStatus, NotConvergedReturnsTheBestPathMet) {
 /** Over the sphere the long way: more than half a turn, so that r vanishes inside the arc. */
 TEST(PathSolverStatus, ArcBeyondItsConjugatePointIsNotMinimum) {
     PathScene scene;
-    scene.point(Vec3(-0.3, -2, 0)).obstacle(std::make_shared<Sphere>(1), Pose()).point(Vec3(0.3, -2, 0));
+    scene.point(Vector3(-0.3, -2, 0)).obstacle(std::make_shared<Sphere>(1), Pose()).point(Vector3(0.3, -2, 0));
     PathSolution path;
     path.contacts.resize(3);
     path.contacts[1].isTouched = true;
-    path.contacts[1].start = {{Vec3(-1, 0, 0)}, Vec3(0, 1, 0), kPi + 0.3};
+    path.contacts[1].start = {{Vector3(-1, 0, 0)}, Vector3(0, 1, 0), kPi + 0.3};
     PathSolverOptions options;
     options.allowsColdStart = false;
     PathSolver(options).solve(scene.problem, scene.pose, path);
@@ -64,8 +66,8 @@ TEST(PathSolverStatus, ArcBeyondItsConjugatePointIsNotMinimum) {
 // variation over arc and straight parts together is not positive.
 TEST(PathSolverStatus, PathBalancedOnTheFarSideOfASphereIsLeftForTheShorterWay) {
     PathScene scene;
-    scene.point(Vec3(-3, 0, 0)).obstacle(std::make_shared<Sphere>(1), Pose(Vec3(0, 0.1, 1e-4)), Vec3(0, 1, 0));
-    scene.point(Vec3(3, 0, 0));
+    scene.point(Vector3(-3, 0, 0)).obstacle(std::make_shared<Sphere>(1), Pose(Vector3(0, 0.1, 1e-4)), Vector3(0, 1, 0));
+    scene.point(Vector3(3, 0, 0));
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::Solved);
     EXPECT_LT(path.length, 6.3);
@@ -74,7 +76,7 @@ TEST(PathSolverStatus, PathBalancedOnTheFarSideOfASphereIsLeftForTheShorterWay) 
 /** A cylinder that ends at |z| = 0.2. */
 class ShortCylinder final : public ImplicitSurface {
 public:
-    ImplicitValue calcImplicit(const Vec3& p) const override { return m_cylinder.calcImplicit(p); }
+    ImplicitValue calcImplicit(const Vector3& p) const override { return m_cylinder.calcImplicit(p); }
     double getSize() const override { return m_cylinder.getSize(); }
     std::string getDescription() const override { return "short cylinder"; }
     double calcDomainMargin(const SurfacePoint& point) const override { return 0.2 - std::abs(point.p.z()); }
@@ -86,8 +88,8 @@ private:
 TEST(PathSolverStatus, ArcOutsideTheDomainIsReported) {
     for (double z : {0.0, 0.3}) {
         PathScene scene;
-        scene.point(Vec3(-1, 0, z)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, z));
-        scene.point(Vec3(1, 0, z));
+        scene.point(Vector3(-1, 0, z)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vector3(0, 0.4, z));
+        scene.point(Vector3(1, 0, z));
         const PathSolution path = scene.solve();
         EXPECT_EQ(path.status, z < 0.2 ? PathStatus::Solved : PathStatus::LeftDomain);
         expectDrawable(scene, path);
@@ -96,7 +98,7 @@ TEST(PathSolverStatus, ArcOutsideTheDomainIsReported) {
 
 /** Asserts which condition is broken, at which element and where; and that the words say the same. */
 void expectBroken(const PathScene& scene, const PathSolution& path, PathVerification::Condition condition, int element,
-                  const Vec3& place_G, double tolerance) {
+                  const Vector3& place_G, double tolerance) {
     const PathVerification verification = verifyPath(scene.problem, scene.pose, path);
     EXPECT_EQ(verification.condition, condition);
     EXPECT_EQ(verification.element, element);
@@ -135,19 +137,19 @@ PathSolution solveFrom(const PathScene& scene, PathSolution path) {
 TEST(PathVerificationPlace, PullsOutwardBeginsWhereTheCubeOfRhoIsClairautsSquareTimesR) {
     constexpr double R = 1, a = 0.25, c = 0.7, kHalf = 0.5, kStraight = 0.5;
     const auto torus = std::make_shared<Torus>(R, a);
-    const SurfacePoint equator = torus->findSurfacePoint(Vec3(R - a, 0, 0));
+    const SurfacePoint equator = torus->findSurfacePoint(Vector3(R - a, 0, 0));
     const double sine = c / (R - a), cosine = std::sqrt(1 - sine * sine);
-    Geodesic back, ahead;
-    torus->shootGeodesic({equator, Vec3(0, sine, -cosine), -kHalf}, {}, back);
-    torus->shootGeodesic({equator, Vec3(0, sine, -cosine), kHalf}, {}, ahead);
+    ShotGeodesic back, ahead;
+    torus->shootGeodesic({equator, Vector3(0, sine, -cosine), -kHalf}, {}, back);
+    torus->shootGeodesic({equator, Vector3(0, sine, -cosine), kHalf}, {}, ahead);
     ASSERT_TRUE(back.Q.kappaN < 0 && ahead.Q.kappaN < 0);
-    const Pose X(Eigen::AngleAxisd(0.4, Vec3(1, 2, 2).normalized()).toRotationMatrix(), Vec3(0.2, -0.1, 0.3));
+    const Pose X(Eigen::AngleAxisd(0.4, Vector3(1, 2, 2).normalized()).toRotationMatrix(), Vector3(0.2, -0.1, 0.3));
     PathScene scene;
-    scene.point(X * Vec3(back.Q.x - kStraight * back.Q.t)).obstacle(torus, X);
-    scene.point(X * Vec3(ahead.Q.x + kStraight * ahead.Q.t));
+    scene.point(X * Vector3(back.Q.x - kStraight * back.Q.t)).obstacle(torus, X);
+    scene.point(X * Vector3(ahead.Q.x + kStraight * ahead.Q.t));
     const PathSolution path = solveArcsOf(scene, makeStart(scene, 1, {back.endPoint, back.Q.t, 2 * kHalf}));
     EXPECT_NEAR(path.length, 2 * (kHalf + kStraight), 1e-10);
-    const Vec3 place_S = X.shiftBack(verifyPath(scene.problem, scene.pose, path).place_G);
+    const Vector3 place_S = X.shiftBack(verifyPath(scene.problem, scene.pose, path).place_G);
     const double rho = std::cbrt(c * c * R), z = std::sqrt(a * a - (rho - R) * (rho - R));
     EXPECT_NEAR(place_S.head<2>().norm(), rho, 1e-9);
     EXPECT_NEAR(place_S.z(), z, 1e-9);  // above the equator: the first of two such places
@@ -165,15 +167,15 @@ TEST(PathVerificationPlace, PullsOutwardBeginsWhereTheCubeOfRhoIsClairautsSquare
 TEST(PathVerificationPlace, PenetrationOfItsOwnSurfaceIsWhereTheSegmentIsDeepest) {
     constexpr double R = 1, a = 0.25;
     const double sine = a / (3 + R), cosine = std::sqrt(1 - sine * sine);
-    const Vec3 foot(3 - (3 - R) * cosine * cosine, 0, (3 - R) * sine * cosine);
+    const Vector3 foot(3 - (3 - R) * cosine * cosine, 0, (3 - R) * sine * cosine);
     for (const double side : {-1.0, 1.0}) {  // the tube that is touched: the first, so that the segment out dips, or in
         SCOPED_TRACE(side);
         PathScene scene;
-        scene.point(Vec3(-3, 0, 0)).obstacle(std::make_shared<Torus>(R, a), Pose()).point(Vec3(3, 0, 0));
+        scene.point(Vector3(-3, 0, 0)).obstacle(std::make_shared<Torus>(R, a), Pose()).point(Vector3(3, 0, 0));
         const PathSolution path =
-            solveArcsOf(scene, makeStart(scene, 1, {{Vec3(side * R, 0, a)}, Vec3(1, 0, 0), 0.05}));
+            solveArcsOf(scene, makeStart(scene, 1, {{Vector3(side * R, 0, a)}, Vector3(1, 0, 0), 0.05}));
         ASSERT_TRUE(path.contacts[1].isTouched);
-        const Vec3 place(-side * foot.x(), 0, foot.z());
+        const Vector3 place(-side * foot.x(), 0, foot.z());
         expectBroken(scene, path, PathVerification::Condition::Penetration, 1, place, 1e-6);
         const PathSolution touched = solveFrom(scene, path);  // once more
         EXPECT_EQ(touched.status, PathStatus::Solved) << explainStatus(scene.problem, scene.pose, touched);
@@ -185,21 +187,21 @@ TEST(PathVerificationPlace, PenetrationOfItsOwnSurfaceIsWhereTheSegmentIsDeepest
 TEST(PathVerificationPlace, PenetrationOfALiftedObstacleIsOnThePath) {
     constexpr double kDepth = 0.05;
     PathScene scene;
-    scene.point(Vec3(-1, 0.6, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(-0.4, 0, 0)));
-    scene.obstacle(std::make_shared<Sphere>(0.5), Pose(Vec3(0.3, 0, 0))).point(Vec3(1, 0.6, 0));
+    scene.point(Vector3(-1, 0.6, 0)).obstacle(std::make_shared<Sphere>(0.5), Pose(Vector3(-0.4, 0, 0)));
+    scene.obstacle(std::make_shared<Sphere>(0.5), Pose(Vector3(0.3, 0, 0))).point(Vector3(1, 0.6, 0));
     PathSolution path = scene.solve();
     ASSERT_TRUE(path.status == PathStatus::Solved && !path.contacts[1].isTouched && !path.contacts[2].isTouched);
     scene.pose.X_GE[2].p.y() = 0.1 + kDepth;
     PathSolver().solveKeepingContacts(scene.problem, scene.pose, path);
     EXPECT_NEAR(path.contacts[2].clearance.distance, -kDepth, 1e-12);
-    expectBroken(scene, path, PathVerification::Condition::Penetration, 2, Vec3(0.3, 0.6, 0), 1e-9);
+    expectBroken(scene, path, PathVerification::Condition::Penetration, 2, Vector3(0.3, 0.6, 0), 1e-9);
 }
 
 /** Over the short cylinder, up or down across its edge z = 0.2 at the top. */
 PathScene makeCrossingOfTheEdge(double zFrom, double zTo) {
     PathScene scene;
-    scene.point(Vec3(-1, 0, zFrom)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vec3(0, 0.4, 0.2));
-    scene.point(Vec3(1, 0, zTo));
+    scene.point(Vector3(-1, 0, zFrom)).obstacle(std::make_shared<ShortCylinder>(), Pose(), Vector3(0, 0.4, 0.2));
+    scene.point(Vector3(1, 0, zTo));
     return scene;
 }
 
@@ -208,7 +210,7 @@ TEST(PathVerificationPlace, OutsideDomainIsOnTheEdge) {
     const PathScene scene = makeCrossingOfTheEdge(0.1, 0.3);
     const PathSolution path = scene.solve();
     EXPECT_EQ(path.status, PathStatus::LeftDomain);
-    expectBroken(scene, path, PathVerification::Condition::OutsideDomain, 1, Vec3(0, 0.4, 0.2), 1e-9);
+    expectBroken(scene, path, PathVerification::Condition::OutsideDomain, 1, Vector3(0, 0.4, 0.2), 1e-9);
     const std::string text = explainStatus(scene.problem, scene.pose, path);
     EXPECT_NE(text.find("the arc on 'obstacle1' leaves the domain of its surface at ("), std::string::npos) << text;
 }
@@ -221,7 +223,7 @@ TEST(PathVerificationPlace, OutsideDomainFromTheStartIsThere) {
     // The tangent from (-1, 0) touches at x = -0.4^2; height goes with length, 0.2 over the whole path of two straight
     // parts and the arc.
     const double straight = std::sqrt(1 - 0.16), arc = 0.4 * (kPi - 2 * std::acos(0.4));
-    const Vec3 start(-0.16, 0.4 * std::sqrt(0.84), 0.3 - 0.2 * straight / (2 * straight + arc));
+    const Vector3 start(-0.16, 0.4 * std::sqrt(0.84), 0.3 - 0.2 * straight / (2 * straight + arc));
     expectBroken(scene, path, PathVerification::Condition::OutsideDomain, 1, start, 1e-9);
 }
 
@@ -229,7 +231,7 @@ TEST(PathVerificationPlace, OutsideDomainFromTheStartIsThere) {
 TEST(PathSolverStatus, AScaleBeyondWhatSquaresCanBeIsNotSolvedWithoutANumber) {
     for (const double scale : {1e-300, 1e-160, 1e100, 1e160, 1e300}) {  // beyond what squares can be of
         PathPose pose;
-        pose.X_GE = {Pose(scale * Vec3(-1, 0.2, 0)), Pose(), Pose(scale * Vec3(1, 0.1, 0))};
+        pose.X_GE = {Pose(scale * Vector3(-1, 0.2, 0)), Pose(), Pose(scale * Vector3(1, 0.1, 0))};
         PathProblem problem;
         problem.addPoint("origin");
         problem.addObstacle("sphere", std::make_shared<Sphere>(0.4 * scale));
@@ -243,7 +245,7 @@ TEST(PathSolverStatus, AScaleBeyondWhatSquaresCanBeIsNotSolvedWithoutANumber) {
 // Symptom (2026-11-25): solved, with a length that is no number, or straight through the obstacle.
 TEST(PathSolverStatus, APoseThatIsNotFiniteIsNeverSolved) {
     PathScene scene;
-    scene.point(Vec3(-1, 0.2, 0)).obstacle(std::make_shared<Sphere>(0.4), Pose()).point(Vec3(1, 0.1, 0));
+    scene.point(Vector3(-1, 0.2, 0)).obstacle(std::make_shared<Sphere>(0.4), Pose()).point(Vector3(1, 0.1, 0));
     const PathSolution good = scene.solve();
     ASSERT_EQ(good.status, PathStatus::Solved);
     for (int e = 0; e < 3; ++e)

@@ -23,8 +23,8 @@ namespace {
 
 using Kind = PathEvent::Kind;
 
-Mat3 turnAboutZ(double angle) {
-    return Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+Matrix3 turnAboutZ(double angle) {
+    return Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
 }
 
 /** A string from a fixed point to one that turns about the axis of a cylinder, clockwise seen from +z, so that it is
@@ -40,21 +40,21 @@ struct Winch {
 
     Winch(double armLength, bool turnsWithPoint) : arm(armLength), isDrum(turnsWithPoint) {
         problem.addPoint("A");
-        problem.addObstacle("cylinder", std::make_shared<Cylinder>(kRadius), PassOnSide{Vec3::UnitY()});
+        problem.addObstacle("cylinder", std::make_shared<Cylinder>(kRadius), PassOnSide{Vector3::UnitY()});
         problem.addPoint("B");
         path.pose = calcPose(0);
         tracker.solve(problem, path);
         setMotion(0, 0, 0);
     }
     PathPose calcPose(double turn) const {
-        const Mat3 R = turnAboutZ(-turn);
+        const Matrix3 R = turnAboutZ(-turn);
         PathPose pose;
-        pose.X_GE = {Pose(Vec3(kX, kY, 0)), Pose(isDrum ? R : Mat3::Identity(), Vec3::Zero()),
-                     Pose(R, R * Vec3(arm, 0, 0))};
+        pose.X_GE = {Pose(Vector3(kX, kY, 0)), Pose(isDrum ? R : Matrix3::Identity(), Vector3::Zero()),
+                     Pose(R, R * Vector3(arm, 0, 0))};
         return pose;
     }
     void setMotion(double time, double turn, double speed) {
-        const Vec3 w(0, 0, -speed);
+        const Vector3 w(0, 0, -speed);
         motion.time = time;
         motion.V_GE.assign(3, {});
         motion.V_GE[2] = {w, w.cross(calcPose(turn).X_GE[2].p)};
@@ -168,15 +168,15 @@ TEST(PathTracker, APoseThatContactsDoNotFitCostsLittle) {
         problem.addPoint("A");
         std::vector<std::shared_ptr<const testing::CountingSurface>> surfaces;
         TrackedPath start;
-        start.pose.X_GE.emplace_back(Vec3(-2, 0, random.uniform(-0.2, 0.2)));
+        start.pose.X_GE.emplace_back(Vector3(-2, 0, random.uniform(-0.2, 0.2)));
         for (int k = 0; k < 2; ++k) {
-            const Vec3 axes(random.uniform(0.2, 0.6), random.uniform(0.2, 0.6), random.uniform(0.2, 0.6));
+            const Vector3 axes(random.uniform(0.2, 0.6), random.uniform(0.2, 0.6), random.uniform(0.2, 0.6));
             surfaces.push_back(std::make_shared<testing::CountingSurface>(std::make_shared<Ellipsoid>(axes)));
-            problem.addObstacle("s" + std::to_string(k), surfaces.back(), PassNear{Vec3(0, axes.y(), 0)});
-            start.pose.X_GE.emplace_back(random.pose(0.1).R, Vec3(1.4 * k - 0.7, -0.1, 0));
+            problem.addObstacle("s" + std::to_string(k), surfaces.back(), PassNear{Vector3(0, axes.y(), 0)});
+            start.pose.X_GE.emplace_back(random.pose(0.1).R, Vector3(1.4 * k - 0.7, -0.1, 0));
         }
         problem.addPoint("B");
-        start.pose.X_GE.emplace_back(Vec3(2, -0.2, random.uniform(-0.2, 0.2)));
+        start.pose.X_GE.emplace_back(Vector3(2, -0.2, random.uniform(-0.2, 0.2)));
         PathTracker tracker;
         tracker.solve(problem, start);
         const auto isTouched = [](const ObstacleContact& contact) { return contact.isTouched; };
@@ -224,11 +224,11 @@ struct SteppedString {
     PathTracker tracker;
     TrackedPath start;
 
-    SteppedString(std::shared_ptr<const Surface> surface, Vec3 B, const StartHint& hint) {
+    SteppedString(std::shared_ptr<const Surface> surface, Vector3 B, const StartHint& hint) {
         problem.addPoint("A");
         problem.addObstacle("surface", std::move(surface), hint);
         problem.addPoint("B");
-        start.pose.X_GE = {Pose(Vec3(-B.x(), B.y(), B.z())), Pose(), Pose(B)};
+        start.pose.X_GE = {Pose(Vector3(-B.x(), B.y(), B.z())), Pose(), Pose(B)};
         tracker.solve(problem, start);
         EXPECT_EQ(start.solution.status, PathStatus::Solved);
     }
@@ -261,7 +261,7 @@ struct SteppedString {
 };
 
 TEST(PathTracker, TouchesAndLiftsWhereTheStraightLineIsTangent) {
-    SteppedString string(std::make_shared<Cylinder>(1), Vec3(3, 1.5, 0.2), PassOnSide{Vec3::UnitY()});
+    SteppedString string(std::make_shared<Cylinder>(1), Vector3(3, 1.5, 0.2), PassOnSide{Vector3::UnitY()});
     TrackedPath path = string.findEvent(0.6);
     EXPECT_NEAR(path.pose.X_GE[2].p.y(), 1, 1e-9);
     std::vector<PathEvent> events = string.tracker.resolveEvent(string.problem, string.start, path);
@@ -281,7 +281,8 @@ TEST(PathTracker, TouchesAndLiftsWhereTheStraightLineIsTangent) {
 }
 
 TEST(PathTracker, SlipsWhereNoStablePathIsLeft) {
-    SteppedString string(std::make_shared<Ellipsoid>(Vec3(1, 1, 0.3)), Vec3(2, 0.98, 0), PassNear{Vec3(0, 1, 0)});
+    SteppedString string(std::make_shared<Ellipsoid>(Vector3(1, 1, 0.3)), Vector3(2, 0.98, 0),
+                         PassNear{Vector3(0, 1, 0)});
     ASSERT_TRUE(string.start.solution.contacts[1].isTouched);
     TrackedPath path = string.findEvent(-0.5);
     const double length = path.solution.length;
@@ -297,8 +298,8 @@ TEST(PathTracker, SlipsWhereNoStablePathIsLeft) {
 TEST(PathTracker, TellsThatARingWasLeft) {
     PathSolverOptions options;
     options.allowsColdStart = false;
-    SteppedString string(std::make_shared<Torus>(1, 0.2), Vec3(0.1, 0, 3), {});
-    string.start.pose.X_GE[0].p = Vec3(0, 0.1, -3);
+    SteppedString string(std::make_shared<Torus>(1, 0.2), Vector3(0.1, 0, 3), {});
+    string.start.pose.X_GE[0].p = Vector3(0, 0.1, -3);
     string.tracker.solve(string.problem, string.start);
     ASSERT_EQ(string.start.solution.contacts[1].passage.count, 1);
     string.tracker = PathTracker(options);
@@ -314,7 +315,7 @@ TEST(PathTracker, TellsThatARingWasLeft) {
 }
 
 TEST(PathTracker, JudgesArcsBelowZeroByWhatTheEventFinderWatches) {
-    SteppedString string(std::make_shared<Cylinder>(1), Vec3(3, 0.9, 0.2), PassOnSide{Vec3::UnitY()});
+    SteppedString string(std::make_shared<Cylinder>(1), Vector3(3, 0.9, 0.2), PassOnSide{Vector3::UnitY()});
     ASSERT_TRUE(string.start.solution.contacts[1].isTouched);
     const TrackedPath just = string.trackTo(1 + 1e-7), far = string.trackTo(1.1);
     EXPECT_LT(calcContactWitness(string.problem, just.pose, just.solution, 1), 0);
@@ -324,10 +325,10 @@ TEST(PathTracker, JudgesArcsBelowZeroByWhatTheEventFinderWatches) {
 }
 
 TEST(PathTracker, SwitchesOffWhatAnEndEnters) {
-    SteppedString string(std::make_shared<Sphere>(1), Vec3(3, 0.9, 0.1), PassNear{Vec3(0, 1, 0)});
+    SteppedString string(std::make_shared<Sphere>(1), Vector3(3, 0.9, 0.1), PassNear{Vector3(0, 1, 0)});
     ASSERT_TRUE(string.start.solution.contacts[1].isTouched);
     PathPose pose = string.start.pose;
-    pose.X_GE[2].p = Vec3(0.5, 0.2, 0);
+    pose.X_GE[2].p = Vector3(0.5, 0.2, 0);
     TrackedPath path = string.track(pose);
     EXPECT_EQ(calcContactWitness(string.problem, path.pose, path.solution, 1), -1);
     string.tracker.resolveEvent(string.problem, string.start, path);

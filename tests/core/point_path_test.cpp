@@ -12,9 +12,9 @@
 namespace tautline::testing {
 namespace {
 
-Pose makePlace(const Vec3& p) {
+Pose makePlace(const Vector3& p) {
     Pose X;
-    X.R = Mat3::Identity();
+    X.R = Matrix3::Identity();
     X.p = p;
     return X;
 }

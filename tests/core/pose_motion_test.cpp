@@ -29,8 +29,8 @@ TEST(Screw, IsAGroupThatBeginsAsTheDisplacementSays) {
         constexpr double h = 1e-5;
         const Pose ahead = calcScrew(multiply(h, V)), back = calcScrew(multiply(-h, V));
         EXPECT_LT(((ahead.p - back.p) / (2 * h) - V.v).norm(), 1e-8);
-        const Mat3 W = (ahead.R - back.R) / (2 * h);
-        EXPECT_LT((Vec3(W(2, 1), W(0, 2), W(1, 0)) - V.w).norm(), 1e-8);
+        const Matrix3 W = (ahead.R - back.R) / (2 * h);
+        EXPECT_LT((Vector3(W(2, 1), W(0, 2), W(1, 0)) - V.w).norm(), 1e-8);
     }
 }
 
@@ -41,17 +41,17 @@ TEST(Screw, IsFoundFromItsPoseUpToHalfATurn) {
         const SpatialVelocity found = calcScrewDisplacement(calcScrew(V));
         EXPECT_LT((found.w - V.w).norm() + (found.v - V.v).norm(), 1e-8) << angle;
     }
-    const Pose half(Eigen::AngleAxisd(kPi, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(4, 5, 6));
+    const Pose half(Eigen::AngleAxisd(kPi, Vector3(1, 2, 3).normalized()).toRotationMatrix(), Vector3(4, 5, 6));
     EXPECT_LT(calcDifference(calcScrew(calcScrewDisplacement(half)), half), 1e-12);
 }
 
 /** A body that turns about an axis at rest by `turn`, with what is foretold of it. */
 struct TurningBody {
-    Vec3 axis_G = Vec3(1, -2, 0.5).normalized(), center_G = Vec3(0.3, 0.1, -0.2);
-    Pose X_0{Eigen::AngleAxisd(0.7, Vec3(0, 1, 1).normalized()).toRotationMatrix(), Vec3(1, 0.4, 0.2)};
+    Vector3 axis_G = Vector3(1, -2, 0.5).normalized(), center_G = Vector3(0.3, 0.1, -0.2);
+    Pose X_0{Eigen::AngleAxisd(0.7, Vector3(0, 1, 1).normalized()).toRotationMatrix(), Vector3(1, 0.4, 0.2)};
 
     Pose calcPose(double turn) const {
-        const Mat3 R = Eigen::AngleAxisd(turn, axis_G).toRotationMatrix();
+        const Matrix3 R = Eigen::AngleAxisd(turn, axis_G).toRotationMatrix();
         return {R * X_0.R, center_G + R * (X_0.p - center_G)};
     }
     SpatialVelocity calcVelocity(double speed) const {

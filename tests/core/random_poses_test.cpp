@@ -26,11 +26,11 @@ using testing::RandomScene;
 /** Shots are geodesics: after 20,000 per element of the path no search begins anew, but one that has begun ends. */
 constexpr int kMaxShotsPerElement = 25000;
 
-bool isFinite(const PathSolution& path, const std::vector<Vec3>& points) {
+bool isFinite(const PathSolution& path, const std::vector<Vector3>& points) {
     bool finite = std::isfinite(path.length);
     for (const StraightSegment& s : path.segments)
         finite = finite && s.A.allFinite() && s.B.allFinite() && s.e.allFinite();
-    for (const Vec3& p : points) finite = finite && p.allFinite();
+    for (const Vector3& p : points) finite = finite && p.allFinite();
     return finite;
 }
 
@@ -45,7 +45,7 @@ double calcLowestHeight(const PathProblem& problem, const PathPose& pose, const 
         for (int segment = in; segment <= out; ++segment)
             for (int i = 0; i <= kSamples; ++i) {
                 const StraightSegment& line = path.segments[segment];
-                const Vec3 D = line.A + i * (line.B - line.A) / kSamples;
+                const Vector3 D = line.A + i * (line.B - line.A) / kSamples;
                 lowest = std::min(lowest, surface.calcHeight(pose.X_GE[e].shiftBack(D)) / surface.getSize());
             }
     });
@@ -57,7 +57,7 @@ bool hasMinimumNearby(const PathProblem& problem, const PathPose& pose) {
     PathPose moved = pose;
     for (std::size_t e = 0; e < moved.X_GE.size(); ++e) {
         const double phase = 1.0 + static_cast<double>(e);
-        moved.X_GE[e].p += 1e-9 * Vec3(std::sin(phase), std::sin(2 * phase), std::sin(3 * phase));
+        moved.X_GE[e].p += 1e-9 * Vector3(std::sin(phase), std::sin(2 * phase), std::sin(3 * phase));
     }
     return solvePath(problem, moved).status == PathStatus::Solved;
 }
@@ -68,9 +68,8 @@ std::string classify(const PathProblem& problem, const PathPose& pose, const Pat
     std::string key = getName(path.status);
     const auto has = [&why](const char* words) { return why.find(words) != std::string::npos; };
     if (path.status == PathStatus::Solved) return key;
-    for (const char* reason :
-         {"is inside", "in the groove", "against the order", "still slides", "would lift inside",
-          "pressure vanishes", "leaves the domain", "too short for the rounding"})
+    for (const char* reason : {"is inside", "in the groove", "against the order", "still slides", "would lift inside",
+                               "pressure vanishes", "leaves the domain", "too short for the rounding"})
         if (has(reason) && !(has("still slides") && hasMinimumNearby(problem, pose))) return key + ", " + reason;
     return key + ", unexplained: " + why;
 }
@@ -124,7 +123,7 @@ public:
 
 private:
     PathSolver m_solver;
-    std::vector<Vec3> m_points;
+    std::vector<Vector3> m_points;
     std::map<std::string, int> m_outcomes;
     std::map<std::string, int> m_shares;  ///< of strategies, and of what the local solver had to do
     std::pair<double, std::string> m_slowest;
@@ -155,16 +154,17 @@ TEST(RandomScenes, OfEverySurfaceEndWithAnExplainedStatusAndFiniteNumbers) {
             PathProblem problem;
             PathPose pose;
             problem.addPoint("origin");
-            pose.X_GE.emplace_back(Vec3(-reach, 0, 0) + 0.3 * random.vector(reach));
-            const auto add = [&](const testing::SurfaceCase& added, const Vec3& p) {
+            pose.X_GE.emplace_back(Vector3(-reach, 0, 0) + 0.3 * random.vector(reach));
+            const auto add = [&](const testing::SurfaceCase& added, const Vector3& p) {
                 problem.addObstacle(added.name, added.surface);
-                const Mat3 R = random.rotation();
+                const Matrix3 R = random.rotation();
                 pose.X_GE.emplace_back(R, p - R * added.center + 0.5 * random.vector(added.surface->getSize()));
             };
-            add(c, Vec3::Zero());
-            if (i % 3 == 0) add(cases[random.integer(0, static_cast<int>(cases.size()) - 1)], Vec3(0.5 * reach, 0, 0));
+            add(c, Vector3::Zero());
+            if (i % 3 == 0)
+                add(cases[random.integer(0, static_cast<int>(cases.size()) - 1)], Vector3(0.5 * reach, 0, 0));
             problem.addPoint("insertion");
-            pose.X_GE.emplace_back(Vec3(reach, 0, 0) + 0.3 * random.vector(reach));
+            pose.X_GE.emplace_back(Vector3(reach, 0, 0) + 0.3 * random.vector(reach));
             tally.solve(problem, pose, c.name + " " + std::to_string(i));
         }
     tally.print();

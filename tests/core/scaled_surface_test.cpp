@@ -15,15 +15,15 @@
 namespace tautline::testing {
 namespace {
 
-const Vec3 kAxes(0.05, 0.03, 0.08);
+const Vector3 kAxes(0.05, 0.03, 0.08);
 
-Mat3 makeTurn() {
-    return Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized()).toRotationMatrix();
+Matrix3 makeTurn() {
+    return Eigen::AngleAxisd(1.1, Vector3(1, 2, -0.5).normalized()).toRotationMatrix();
 }
 
 /** So strong that the plane z = 0 tells nothing of a ring's hole. */
-Mat3 makeShear() {
-    Mat3 shear = Mat3::Identity();
+Matrix3 makeShear() {
+    Matrix3 shear = Matrix3::Identity();
     shear(2, 0) = 1.5;
     return shear;
 }
@@ -32,11 +32,11 @@ TEST(ScaledSurface, OfASphereByFactorsIsTheEllipsoid) {
     const Ellipsoid ellipsoid(kAxes);
     const ScaledImplicitSurface<Sphere> implicitForm(Sphere(1), kAxes);
     const ScaledParametricSurface<ParametricSphere> parametricForm(ParametricSphere(1), kAxes);
-    for (const SurfaceLawSample& sample : makeSamples(ellipsoid, 0.1, Vec3::Zero(), 0.1, {}, 20, 7)) {
+    for (const SurfaceLawSample& sample : makeSamples(ellipsoid, 0.1, Vector3::Zero(), 0.1, {}, 20, 7)) {
         const SurfacePoint p = ellipsoid.findSurfacePoint(sample.p_S);
         for (const Surface* scaled :
              {static_cast<const Surface*>(&implicitForm), static_cast<const Surface*>(&parametricForm)}) {
-            Geodesic g, h;
+            ShotGeodesic g, h;
             ellipsoid.shootGeodesic({p, sample.direction_S, sample.length}, {}, g);
             scaled->shootGeodesic({scaled->findSurfacePoint(p.p), sample.direction_S, sample.length}, {}, h);
             EXPECT_LT((g.Q.x - h.Q.x).norm() / 0.03 + (g.Q.t - h.Q.t).norm() + (g.Q.N - h.Q.N).norm(), 1e-10);
@@ -50,11 +50,11 @@ struct EllipsoidPath {
     PathPose pose;
     std::vector<SpatialVelocity> velocity;
 
-    EllipsoidPath(std::shared_ptr<const Surface> surface, const Mat3& R_SE, unsigned seed) {
+    EllipsoidPath(std::shared_ptr<const Surface> surface, const Matrix3& R_SE, unsigned seed) {
         Random random(seed);
-        const Vec3 way = random.unitVector(), aside = way.unitOrthogonal();
+        const Vector3 way = random.unitVector(), aside = way.unitOrthogonal();
         const Pose X_GE(random.rotation(), random.vector(0.005));
-        const Vec3 aside_E = X_GE.rotateBack(aside), near_E = aside_E / aside_E.cwiseQuotient(kAxes).norm();
+        const Vector3 aside_E = X_GE.rotateBack(aside), near_E = aside_E / aside_E.cwiseQuotient(kAxes).norm();
         problem.addPoint("origin");
         problem.addObstacle("ellipsoid", std::move(surface), PassNear{R_SE * near_E});
         problem.addPoint("insertion");
@@ -66,7 +66,8 @@ struct EllipsoidPath {
 
 /** An ellipsoid is a sphere stretched along any three orthogonal axes, in every form. */
 TEST(ScaledSurface, PathsOverASphereScaledAlongTurnedAxesAreThoseOverTheEllipsoid) {
-    const Mat3 R_SE = makeTurn(), M = R_SE * kAxes.asDiagonal() * R_SE.transpose(), askew = R_SE * kAxes.asDiagonal();
+    const Matrix3 R_SE = makeTurn(), M = R_SE * kAxes.asDiagonal() * R_SE.transpose(),
+                  askew = R_SE * kAxes.asDiagonal();
     const std::shared_ptr<const Surface> scaled[] = {
         std::make_shared<ScaledImplicitSurface<Sphere>>(Sphere(1), M),
         std::make_shared<ScaledParametricSurface<ParametricSphere>>(ParametricSphere(1), M),
@@ -76,7 +77,7 @@ TEST(ScaledSurface, PathsOverASphereScaledAlongTurnedAxesAreThoseOverTheEllipsoi
     };
     int touched = 0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
-        const EllipsoidPath truth(std::make_shared<Ellipsoid>(kAxes), Mat3::Identity(), seed);
+        const EllipsoidPath truth(std::make_shared<Ellipsoid>(kAxes), Matrix3::Identity(), seed);
         const PathSolution path = solvePath(truth.problem, truth.pose);
         ASSERT_EQ(path.status, PathStatus::Solved);
         touched += path.contacts[1].isTouched;
@@ -94,27 +95,27 @@ TEST(ScaledSurface, PathsOverASphereScaledAlongTurnedAxesAreThoseOverTheEllipsoi
 }
 
 TEST(ScaledSurface, ItsSizeIsThatOfTheBaseByTheLeastFactorAndConvexStaysConvex) {
-    const Mat3 M = makeBodyScaling(Vec3(2.5, 0.5, 1));
+    const Matrix3 M = makeBodyScaling(Vector3(2.5, 0.5, 1));
     const ScaledImplicitSurface<Sphere> sphere(Sphere(0.3), M);
     EXPECT_NEAR(sphere.getSize(), 0.15, 1e-15);
     EXPECT_TRUE(sphere.isConvex());
     EXPECT_FALSE(ScaledImplicitSurface<Torus>(Torus(0.3, 0.1), M).isConvex());
-    EXPECT_EQ(ScaledImplicitSurface<Sphere>(Sphere(0.3), Vec3(1, 2, 3)).getDescription(),
+    EXPECT_EQ(ScaledImplicitSurface<Sphere>(Sphere(0.3), Vector3(1, 2, 3)).getDescription(),
               "sphere(radius=0.3) scaled by (1, 2, 3)");
 }
 
 TEST(ScaledSurface, ItsHoleAndItsEdgeGoAlongWithTheMap) {
-    const Mat3 shear = makeShear();
+    const Matrix3 shear = makeShear();
     const ScaledImplicitSurface<Torus> ring(Torus(0.3, 0.1), shear);
-    const Vec3 inPlane = shear * Vec3(0.15, 0, 0), axis = ring.getHole()->getAxis();
-    EXPECT_NEAR(axis.dot(shear * Vec3(1, 2, 0)), 0, 1e-15);
+    const Vector3 inPlane = shear * Vector3(0.15, 0, 0), axis = ring.getHole()->getAxis();
+    EXPECT_NEAR(axis.dot(shear * Vector3(1, 2, 0)), 0, 1e-15);
     EXPECT_EQ(ring.getHole()->countCrossings(inPlane - 0.1 * axis, inPlane + 0.1 * axis), 1);
     EXPECT_EQ(ring.getHole()->countCrossings(inPlane + 0.1 * axis, inPlane - 0.1 * axis), -1);
-    EXPECT_EQ(ring.getHole()->countCrossings(Vec3(0.15, 0, -0.1), Vec3(0.15, 0, 0.1)), 0);
-    EXPECT_EQ(Torus(0.3, 0.1).getHole()->countCrossings(Vec3(0.15, 0, -0.1), Vec3(0.15, 0, 0.1)), 1);
+    EXPECT_EQ(ring.getHole()->countCrossings(Vector3(0.15, 0, -0.1), Vector3(0.15, 0, 0.1)), 0);
+    EXPECT_EQ(Torus(0.3, 0.1).getHole()->countCrossings(Vector3(0.15, 0, -0.1), Vector3(0.15, 0, 0.1)), 1);
 
     const ScaledImplicitSurface<Cone> cone(Cone(0.4, 0.3, 0.1), shear);
-    const Vec3 generator(std::tan(0.4), 0, 1);
+    const Vector3 generator(std::tan(0.4), 0, 1);
     EXPECT_TRUE(cone.isInDomain({shear * (0.11 / std::tan(0.4) * generator)}));
     EXPECT_FALSE(cone.isInDomain({shear * (0.09 / std::tan(0.4) * generator)}));
 }
@@ -122,7 +123,7 @@ TEST(ScaledSurface, ItsHoleAndItsEdgeGoAlongWithTheMap) {
 /** From below the sheared ring to above, or from above to below. */
 TEST(ScaledSurface, AShearedRingIsThreadedAsOftenAsHinted) {
     const auto ring = std::make_shared<ScaledImplicitSurface<Torus>>(Torus(0.3, 0.1), makeShear());
-    const Vec3 axis = ring->getHole()->getAxis(), aside = 0.5 * axis.unitOrthogonal();
+    const Vector3 axis = ring->getHole()->getAxis(), aside = 0.5 * axis.unitOrthogonal();
     for (const int passages : {-2, -1, 0, 1, 2}) {
         const double side = passages < 0 ? -1 : 1;
         PathProblem problem;
@@ -130,7 +131,7 @@ TEST(ScaledSurface, AShearedRingIsThreadedAsOftenAsHinted) {
         problem.addObstacle("ring", ring, ThreadHole{passages});
         problem.addPoint("insertion");
         PathPose pose;
-        pose.X_GE = {Pose(Vec3(aside - side * axis)), Pose(), Pose(Vec3(aside + side * axis))};
+        pose.X_GE = {Pose(Vector3(aside - side * axis)), Pose(), Pose(Vector3(aside + side * axis))};
         const PathSolution path = solvePath(problem, pose);
         EXPECT_EQ(path.status, PathStatus::Solved) << passages;
         EXPECT_EQ(path.contacts[1].passage.count, passages);
@@ -141,7 +142,7 @@ TEST(ScaledSurface, AShearedRingIsThreadedAsOftenAsHinted) {
 
 class UserBlob final : public ImplicitSurface {
 public:
-    ImplicitValue calcImplicit(const Vec3& p) const override { return m_ellipsoid.calcImplicit(p); }
+    ImplicitValue calcImplicit(const Vector3& p) const override { return m_ellipsoid.calcImplicit(p); }
     double getSize() const override { return 0.03; }
     std::string getDescription() const override { return "blob"; }
 
@@ -150,13 +151,13 @@ private:
 };
 
 TEST(ScaledSurface, AUsersOwnSurfaceIsScaledAsTheKnownOne) {
-    const Mat3 M = makeBodyScaling(Vec3(1.2, 0.7, 1));
+    const Matrix3 M = makeBodyScaling(Vector3(1.2, 0.7, 1));
     const ScaledImplicitSurface<Ellipsoid> known(Ellipsoid(kAxes), M);
     const auto shared = makeScaledSurface(std::make_shared<UserBlob>(), M);
     EXPECT_EQ(shared->getSize(), known.getSize());
     EXPECT_EQ(shared->getDescription().rfind("blob scaled by [", 0), 0u) << shared->getDescription();
-    for (const SurfaceLawSample& sample : makeSamples(known, 0.1, Vec3::Zero(), 0.1, {}, 10, 9)) {
-        Geodesic g, h;
+    for (const SurfaceLawSample& sample : makeSamples(known, 0.1, Vector3::Zero(), 0.1, {}, 10, 9)) {
+        ShotGeodesic g, h;
         const SurfacePoint p = known.findSurfacePoint(sample.p_S);
         known.shootGeodesic({p, sample.direction_S, sample.length}, {}, g);
         shared->shootGeodesic({p, sample.direction_S, sample.length}, {}, h);
@@ -169,13 +170,15 @@ class Formless final : public Surface {
 public:
     double getSize() const override { return m_sphere.getSize(); }
     std::string getDescription() const override { return "formless"; }
-    double calcHeightAndNormal(const Vec3& p, Vec3& N) const override { return m_sphere.calcHeightAndNormal(p, N); }
-    SurfacePoint findSurfacePoint(const Vec3& p) const override { return m_sphere.findSurfacePoint(p); }
-    SurfacePoint calcDisplacedPoint(const SurfacePoint& p, const Vec3& d) const override {
+    double calcHeightAndNormal(const Vector3& p, Vector3& N) const override {
+        return m_sphere.calcHeightAndNormal(p, N);
+    }
+    SurfacePoint findSurfacePoint(const Vector3& p) const override { return m_sphere.findSurfacePoint(p); }
+    SurfacePoint calcDisplacedPoint(const SurfacePoint& p, const Vector3& d) const override {
         return m_sphere.calcDisplacedPoint(p, d);
     }
-    DarbouxFrame calcFrame(const SurfacePoint& p, const Vec3& d) const override { return m_sphere.calcFrame(p, d); }
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& g) const override {
+    DarbouxFrame calcFrame(const SurfacePoint& p, const Vector3& d) const override { return m_sphere.calcFrame(p, d); }
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options, ShotGeodesic& g) const override {
         m_sphere.shootGeodesic(start, options, g);
     }
 
@@ -193,19 +196,22 @@ std::string findRefusal(const std::function<void()>& make) {
 }
 
 TEST(ScaledSurface, RefusalsNameTheValueAndTheLimit) {
-    const auto refuse = [](const Mat3& M) { return findRefusal([&] { ScaledImplicitSurface<Sphere>(Sphere(1), M); }); };
+    const auto refuse = [](const Matrix3& M) {
+        return findRefusal([&] { ScaledImplicitSurface<Sphere>(Sphere(1), M); });
+    };
     const auto contains = [](const std::string& text, const std::string& word) {
         return text.find(word) != std::string::npos ? "" : text;
     };
-    EXPECT_EQ(contains(findRefusal([] { ScaledImplicitSurface<Sphere>(Sphere(1), Vec3(1, 0, 1)); }), "factor y"), "");
-    EXPECT_EQ(contains(findRefusal([] { ScaledImplicitSurface<Sphere>(Sphere(1), Vec3(1, 1, -2)); }), "-2"), "");
-    EXPECT_EQ(contains(refuse(Mat3(Vec3(1, 1, -0.5).asDiagonal())), "must be positive, but is -0.5"), "");
-    EXPECT_EQ(contains(refuse(Mat3::Ones()), "but is 0"), "");
-    EXPECT_EQ(contains(refuse(Mat3(Vec3(1, 1e-7, 1).asDiagonal())), "of the largest, 1, but is 9.99"), "");
-    Mat3 notFinite = Mat3::Identity();
+    EXPECT_EQ(contains(findRefusal([] { ScaledImplicitSurface<Sphere>(Sphere(1), Vector3(1, 0, 1)); }), "factor y"),
+              "");
+    EXPECT_EQ(contains(findRefusal([] { ScaledImplicitSurface<Sphere>(Sphere(1), Vector3(1, 1, -2)); }), "-2"), "");
+    EXPECT_EQ(contains(refuse(Matrix3(Vector3(1, 1, -0.5).asDiagonal())), "must be positive, but is -0.5"), "");
+    EXPECT_EQ(contains(refuse(Matrix3::Ones()), "but is 0"), "");
+    EXPECT_EQ(contains(refuse(Matrix3(Vector3(1, 1e-7, 1).asDiagonal())), "of the largest, 1, but is 9.99"), "");
+    Matrix3 notFinite = Matrix3::Identity();
     notFinite(1, 2) = kNaN;
     EXPECT_EQ(contains(refuse(notFinite), "must be finite, but is [1, 0, 0; 0, 1, nan; 0, 0, 1]"), "");
-    const Mat3 M = Mat3::Identity();
+    const Matrix3 M = Matrix3::Identity();
     EXPECT_EQ(contains(findRefusal([&] { makeScaledSurface(nullptr, M); }), "needs a base"), "");
     EXPECT_EQ(
         contains(findRefusal([&] { makeScaledSurface(std::make_shared<Formless>(), M); }), "formless has neither"), "");

@@ -55,12 +55,12 @@ TEST(DataScenes, MovingScenesAreFollowedThroughTheirEvents) {
 
 /** How often a path turns about the axis of the cylinder that its one obstacle is, from end to end. */
 double countTurns(const PathPose& pose, const PathSolution& path) {
-    const Geodesic& arc = path.contacts[1].geodesic;
+    const ShotGeodesic& arc = path.contacts[1].geodesic;
     const Pose& X_GS = pose.X_GE[1];
-    const auto sweep = [](const Vec3& from, const Vec3& to) {
+    const auto sweep = [](const Vector3& from, const Vector3& to) {
         return std::atan2(from.x() * to.y() - from.y() * to.x(), from.head<2>().dot(to.head<2>()));
     };
-    const double sideways = Vec3::UnitZ().cross(arc.P.N).dot(arc.P.t), radius = arc.P.x.head<2>().norm();
+    const double sideways = Vector3::UnitZ().cross(arc.P.N).dot(arc.P.t), radius = arc.P.x.head<2>().norm();
     return (sweep(X_GS.shiftBack(pose.X_GE[0].p), arc.P.x) + sideways * arc.length / radius +
             sweep(arc.Q.x, X_GS.shiftBack(pose.X_GE[2].p))) /
            (2 * kPi);

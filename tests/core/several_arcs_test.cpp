@@ -28,7 +28,8 @@ const Surface& getSurface(const PathScene& scene) {
     return *scene.problem.getElement(1).surface;
 }
 
-PathScene makeScene(std::shared_ptr<const Surface> surface, const Vec3& A, const Vec3& B, const Pose& X = Pose()) {
+PathScene makeScene(std::shared_ptr<const Surface> surface, const Vector3& A, const Vector3& B,
+                    const Pose& X = Pose()) {
     PathScene scene;
     scene.point(X * A).obstacle(std::move(surface), X).point(X * B);
     return scene;
@@ -52,7 +53,7 @@ void expectConsistent(const PathScene& scene, const PathSolution& path) {
 /** Against a polyline of so many springs, and of twice as many: its error falls as their square. */
 void expectLengthOfPolyline(const PathScene& scene, const Surface& surface, const PathSolution& path, int springs,
                             double tolerance) {
-    std::vector<Vec3> course;
+    std::vector<Vector3> course;
     calcDrawingPoints(path, scene.problem, scene.pose, 0.1, course);
     double length[2];
     for (const int i : {0, 1}) {
@@ -67,10 +68,10 @@ void expectLengthOfPolyline(const PathScene& scene, const Surface& surface, cons
 TEST(SeveralArcs, OverTheHoleOfARingAreTwoCirclesInAPlane) {
     constexpr double R = 0.1, a = 0.03;
     const auto ring = std::make_shared<Torus>(R, a);
-    const Pose X(Eigen::AngleAxisd(0.7, Vec3(1, 2, -2).normalized()).toRotationMatrix(), Vec3(0.3, -0.2, 0.1));
+    const Pose X(Eigen::AngleAxisd(0.7, Vector3(1, 2, -2).normalized()).toRotationMatrix(), Vector3(0.3, -0.2, 0.1));
     for (const double z : {0.002, 0.01, 0.02, 0.028}) {
         SCOPED_TRACE(z);
-        const Vec3 A(-0.3, 0, z), B(0.35, 0, 0.7 * z);
+        const Vector3 A(-0.3, 0, z), B(0.35, 0, 0.7 * z);
         const PathScene scene = makeScene(ring, A, B, X);
         const PathSolution path = scene.solve();
         expectConsistent(scene, path);
@@ -94,8 +95,8 @@ TEST(SeveralArcs, OverTheHoleOfARingHaveTheLengthOfAPolyline) {
         SCOPED_TRACE(i);
         const auto ring = std::make_shared<Torus>(0.1, random.uniform(0.01, 0.05));
         const double tube = ring->getTubeRadius();
-        const Vec3 A(-0.3, random.uniform(-0.05, 0.05), random.uniform(-0.5, 0.9) * tube);
-        const Vec3 B(0.3, random.uniform(-0.05, 0.05), random.uniform(-0.5, 0.9) * tube);
+        const Vector3 A(-0.3, random.uniform(-0.05, 0.05), random.uniform(-0.5, 0.9) * tube);
+        const Vector3 B(0.3, random.uniform(-0.05, 0.05), random.uniform(-0.5, 0.9) * tube);
         const PathScene scene = makeScene(ring, A, B);
         const PathSolution path = scene.solve();
         expectConsistent(scene, path);
@@ -131,10 +132,10 @@ TEST(SeveralArcs, OverACorrugatedSheetAreTheHullOfItsSection) {
             for (const double across : {0.0, 0.6}) {
                 SCOPED_TRACE(::testing::Message() << isParametric << " " << c << " " << across);
                 const SheetCurve curve = makeRidges(b, k, c);
-                const Vec2 A(-2.45, 0.02 - 6 * c), B(1.55, 0.01 - 2.4 * c);
+                const Vector2 A(-2.45, 0.02 - 6 * c), B(1.55, 0.01 - 2.4 * c);
                 const PlanarHull hull(curve, A, B);
                 const PathScene scene =
-                    makeScene(makeSheet(isParametric, b, k, c), Vec3(A[0], 0, A[1]), Vec3(B[0], across, B[1]));
+                    makeScene(makeSheet(isParametric, b, k, c), Vector3(A[0], 0, A[1]), Vector3(B[0], across, B[1]));
                 const PathSolution path = scene.solve();
                 expectConsistent(scene, path);
                 ASSERT_EQ(path.contacts[1].getNumArcs(), static_cast<int>(hull.getArcs().size()));
@@ -153,14 +154,14 @@ TEST(SeveralArcs, OverACorrugatedSheetAreTheHullOfItsSection) {
 TEST(SeveralArcs, BeginOnTheHullWhereALineIsWatchedInAHollow) {
     constexpr double b = 0.05, k = 2 * kPi, c = 0.02;
     const SheetCurve curve = makeRidges(b, k, c);
-    const Vec2 A(-2.45, -0.15), B(1.55, -0.08);
+    const Vector2 A(-2.45, -0.15), B(1.55, -0.08);
     const PlanarHull hull(curve, A, B);
     const auto sheet = makeSheet(false, b, k, c);
     LineClearance clearance;
-    clearance.C = sheet->findSurfacePoint(Vec3(-0.5, 0, curve.g(-0.5)));
-    clearance.N = sheet->calcFrame(clearance.C, Vec3::UnitX()).N;
+    clearance.C = sheet->findSurfacePoint(Vector3(-0.5, 0, curve.g(-0.5)));
+    clearance.N = sheet->calcFrame(clearance.C, Vector3::UnitX()).N;
     clearance.distance = -0.05;
-    const Vec3 A_S(A[0], 0, A[1]), B_S(B[0], 0, B[1]);
+    const Vector3 A_S(A[0], 0, A[1]), B_S(B[0], 0, B[1]);
     std::vector<GeodesicStart> further;
     std::vector<GeodesicStart> arcs{calcTouchingArcs(*sheet, A_S, B_S, clearance, further)};
     arcs.insert(arcs.end(), further.begin(), further.end());
@@ -195,8 +196,8 @@ TEST(SeveralArcs, OverAnEggCrateHaveTheLengthOfAPolyline) {
         double length[2];
         for (const bool isParametric : {false, true}) {
             const PathScene scene =
-                makeScene(makeEggCrate(isParametric, b, k, c), Vec3(from, 0.01, 0.02 - c * from * from),
-                          Vec3(to, 0.02, 0.015 - c * to * to));
+                makeScene(makeEggCrate(isParametric, b, k, c), Vector3(from, 0.01, 0.02 - c * from * from),
+                          Vector3(to, 0.02, 0.015 - c * to * to));
             const PathSolution path = scene.solve();
             expectConsistent(scene, path);
             EXPECT_EQ(path.contacts[1].getNumArcs(), last - first + 1);
@@ -220,7 +221,7 @@ TEST(SeveralArcs, OverAPeanutHaveTheLengthOfAPolyline) {
     const auto peanut = makePeanut(0.1, 0.12, 0.02);
     for (const double z : {0.03, 0.08}) {
         SCOPED_TRACE(z);
-        const PathScene scene = makeScene(peanut, Vec3(-0.4, 0.01, z - 0.02), Vec3(0.45, -0.02, z));
+        const PathScene scene = makeScene(peanut, Vector3(-0.4, 0.01, z - 0.02), Vector3(0.45, -0.02, z));
         const PathSolution path = scene.solve();
         expectConsistent(scene, path);
         EXPECT_EQ(path.contacts[1].getNumArcs(), 2);
@@ -230,13 +231,13 @@ TEST(SeveralArcs, OverAPeanutHaveTheLengthOfAPolyline) {
 
 /** r = 1 + sum of Gaussians about random directions. */
 struct BumpySphere {
-    std::vector<Vec3> bumps;
+    std::vector<Vector3> bumps;
     std::vector<double> heights, widths;
 
     explicit BumpySphere(SeededRandom& random) {
         constexpr int kBumps = 10;
         for (int i = 0; i < kBumps; ++i) {
-            bumps.push_back((Vec3(0, 0, 1) + random.vector(0.9)).normalized());
+            bumps.push_back((Vector3(0, 0, 1) + random.vector(0.9)).normalized());
             heights.push_back(random.uniform(0.03, 0.1));
             widths.push_back(random.uniform(0.12, 0.25));
         }
@@ -247,7 +248,7 @@ struct BumpySphere {
                 const auto rho = sqrt(x * x + y * y + z * z);
                 auto f = rho - 1;
                 for (std::size_t i = 0; i < copy.bumps.size(); ++i) {
-                    const Vec3& bump = copy.bumps[i];
+                    const Vector3& bump = copy.bumps[i];
                     const auto dx = x / rho - bump.x(), dy = y / rho - bump.y(), dz = z / rho - bump.z();
                     const double width = copy.widths[i];
                     f = f - copy.heights[i] * exp(-1 / (width * width) * (dx * dx + dy * dy + dz * dz));
@@ -257,13 +258,13 @@ struct BumpySphere {
     }
     /** By value and gradient alone, for the polyline: a tenth of the time. */
     ImplicitFunctionSurface makeCheapSurface() const {
-        const auto calc = [copy = *this](const Vec3& p, Vec3& gradient) {
+        const auto calc = [copy = *this](const Vector3& p, Vector3& gradient) {
             const double rho = p.norm();
-            const Vec3 direction = p / rho;
+            const Vector3 direction = p / rho;
             double f = rho - 1;
             gradient = direction;
             for (std::size_t i = 0; i < copy.bumps.size(); ++i) {
-                const Vec3& bump = copy.bumps[i];
+                const Vector3& bump = copy.bumps[i];
                 const double w2 = copy.widths[i] * copy.widths[i];
                 const double rise = copy.heights[i] * std::exp(-(direction - bump).squaredNorm() / w2);
                 f -= rise;
@@ -272,12 +273,12 @@ struct BumpySphere {
             return f;
         };
         return {"bumpy sphere", 1.0,
-                [calc](const Vec3& p) {
-                    Vec3 gradient;
+                [calc](const Vector3& p) {
+                    Vector3 gradient;
                     return calc(p, gradient);
                 },
-                [calc](const Vec3& p) {
-                    Vec3 gradient;
+                [calc](const Vector3& p) {
+                    Vector3 gradient;
                     calc(p, gradient);
                     return gradient;
                 }};
@@ -293,8 +294,8 @@ int solveOverBumpySpheres(unsigned seed, int count, int springs) {
         SCOPED_TRACE(i);
         const BumpySphere sphere(random);
         const double z = random.uniform(0.3, 0.9);
-        const PathScene scene = makeScene(sphere.makeSurface(), Vec3(-1.6, random.uniform(-0.5, 0.5), z),
-                                          Vec3(1.6, random.uniform(-0.5, 0.5), random.uniform(0.3, 0.9)));
+        const PathScene scene = makeScene(sphere.makeSurface(), Vector3(-1.6, random.uniform(-0.5, 0.5), z),
+                                          Vector3(1.6, random.uniform(-0.5, 0.5), random.uniform(0.3, 0.9)));
         const PathSolution path = scene.solve();
         expectConsistent(scene, path);
         expectLengthOfPolyline(scene, sphere.makeCheapSurface(), path, springs, 1e-7);
@@ -329,9 +330,9 @@ struct StringOverTurningPeanut {
     static TrackedPath at(double angle) {
         TrackedPath moved;
         moved.time = angle;
-        moved.pose.X_GE = {Pose(Vec3(-0.3, 0.004, 0.085)),
-                           Pose(Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero()),
-                           Pose(Vec3(0.33, -0.003, 0.08))};
+        moved.pose.X_GE = {Pose(Vector3(-0.3, 0.004, 0.085)),
+                           Pose(Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix(), Vector3::Zero()),
+                           Pose(Vector3(0.33, -0.003, 0.08))};
         return moved;
     }
     TrackedPath track(double angle) {
@@ -468,7 +469,8 @@ TEST(SeveralArcs, ShortenThePathOfOneArcByThePowerSevenHalves) {
 }
 
 TEST(SeveralArcs, HaveTheRatesOfTheirDifferences) {
-    const PathScene scene = makeScene(makePeanut(0.1, 0.12, 0.02), Vec3(-0.4, 0.01, 0.05), Vec3(0.45, -0.02, 0.07));
+    const PathScene scene =
+        makeScene(makePeanut(0.1, 0.12, 0.02), Vector3(-0.4, 0.01, 0.05), Vector3(0.45, -0.02, 0.07));
     PathSolution path = scene.solve();
     ASSERT_EQ(path.contacts[1].getNumArcs(), 2);
     constexpr unsigned kSeed = 9;

@@ -18,7 +18,7 @@ namespace {
 /** Newton's method of thesis Sec. 6.1 on x(u, v) = (u, v, u^2/14 + v^2/6), Eqn. 6.3 to 6.5 with the unknowns in the
 order (s_0, u, v). Ends of the line and expected numbers: errata of Sec. 6.1.1 and Tab. 6.1. */
 TEST(SignedDistance, ParaboloidOfThesisTab6_1) {
-    const Vec3 A(-10, 10, -5), B(10, 5, -2), e = (B - A).normalized();
+    const Vector3 A(-10, 10, -5), B(10, 5, -2), e = (B - A).normalized();
     const double norms[] = {11.347973868163587, 0.08996027934027645, 0.0020755024625711, 1.7055e-7, 1.3e-15};
     const double tolerances[] = {1e-13, 1e-14, 1e-14, 1e-11, 1e-14};  // digits printed
     // s_0, u_C, v_C and the column d, which is the distance of C and D: some are printed rounded, others cut off (the
@@ -28,18 +28,18 @@ TEST(SignedDistance, ParaboloidOfThesisTab6_1) {
                                {14.7876, 2.5635, 2.5943, 6.1193},
                                {14.7875, 2.5631, 2.5938, 6.1193},
                                {14.7875, 2.5630, 2.5938, 6.1193}};
-    Vec3 w(5, 1, 2);
+    Vector3 w(5, 1, 2);
     double d = kNaN;
     for (int k = 0; k < 5; ++k) {
         const double u = w[1], v = w[2];
-        const Vec3 xu(1, 0, u / 7), xv(0, 1, v / 3), xuu(0, 0, 1 / 7.0), xvv(0, 0, 1 / 3.0);
-        const Vec3 r = A + w[0] * e - Vec3(u, v, u * u / 14 + v * v / 6);
-        const Vec3 g(e.dot(r), xu.dot(r), xv.dot(r));
+        const Vector3 xu(1, 0, u / 7), xv(0, 1, v / 3), xuu(0, 0, 1 / 7.0), xvv(0, 0, 1 / 3.0);
+        const Vector3 r = A + w[0] * e - Vector3(u, v, u * u / 14 + v * v / 6);
+        const Vector3 g(e.dot(r), xu.dot(r), xv.dot(r));
         EXPECT_NEAR(g.norm(), norms[k], tolerances[k]) << "row " << k + 1;
         for (int i = 0; i < 3; ++i) EXPECT_NEAR(w[i], rows[k][i], 1e-4) << "row " << k + 1;
         EXPECT_NEAR(r.norm(), rows[k][3], 1e-4) << "row " << k + 1;
         d = r.dot(xv.cross(xu).normalized());  // outward on the convex side, below
-        Mat3 J;
+        Matrix3 J;
         J << 1, -e.dot(xu), -e.dot(xv), e.dot(xu), -xu.dot(xu) + r.dot(xuu), -xu.dot(xv), e.dot(xv), -xu.dot(xv),
             -xv.dot(xv) + r.dot(xvv);
         w -= J.inverse() * g;
@@ -52,9 +52,9 @@ TEST(SignedDistance, ParaboloidOfThesisTab6_1) {
     /** The paraboloid as f = u^2/14 + v^2/6 - z: outside below. */
     class Paraboloid final : public ImplicitSurface {
     public:
-        ImplicitValue calcImplicit(const Vec3& p) const override {
-            return {p.x() * p.x() / 14 + p.y() * p.y() / 6 - p.z(), Vec3(p.x() / 7, p.y() / 3, -1),
-                    Vec3(1 / 7.0, 1 / 3.0, 0).asDiagonal()};
+        ImplicitValue calcImplicit(const Vector3& p) const override {
+            return {p.x() * p.x() / 14 + p.y() * p.y() / 6 - p.z(), Vector3(p.x() / 7, p.y() / 3, -1),
+                    Vector3(1 / 7.0, 1 / 3.0, 0).asDiagonal()};
         }
         double getSize() const override { return 3; }
         std::string getDescription() const override { return "paraboloid"; }
@@ -70,27 +70,27 @@ TEST(SignedDistance, ParaboloidOfThesisTab6_1) {
 /** What Tab. 7.1 prints in a row, and the signed distance. */
 struct Tab7_1Row {
     double norm;
-    Vec3 C, D;
+    Vector3 C, D;
     double distance, d;
 };
 
 /** Newton's method of thesis Sec. 7.6, Eqn. 7.28 to 7.34 with dw = -J^-1 g (errata), from the surface point near
 `start` and D = A + s0 e. Curvatures and steps on the surface are the core's. */
-std::vector<Tab7_1Row> iterateTab7_1(const Ellipsoid& ellipsoid, const Vec3& A, const Vec3& B, const Vec3& start,
-                                     double s0) {
-    const Vec3 e = (B - A).normalized();
+std::vector<Tab7_1Row> iterateTab7_1(const Ellipsoid& ellipsoid, const Vector3& A, const Vector3& B,
+                                     const Vector3& start, double s0) {
+    const Vector3 e = (B - A).normalized();
     SurfacePoint C = ellipsoid.findSurfacePoint(start);
     std::vector<Tab7_1Row> rows;
     for (int k = 0; k < 6; ++k) {
         const DarbouxFrame frame = ellipsoid.calcFrame(C, e);
-        const Vec3 e1 = frame.t, e2 = -frame.B, D = A + s0 * e, r = D - C.p;  // e1 x e2 = N
-        const Vec3 g(e.dot(r), e1.dot(r), e2.dot(r));
+        const Vector3 e1 = frame.t, e2 = -frame.B, D = A + s0 * e, r = D - C.p;  // e1 x e2 = N
+        const Vector3 g(e.dot(r), e1.dot(r), e2.dot(r));
         const double d = frame.N.dot(r);
         rows.push_back({g.norm(), C.p, D, r.norm(), d});
-        Mat3 J;
+        Matrix3 J;
         J << 1, -e.dot(e1), -e.dot(e2), e.dot(e1), frame.kappaN * d - 1, frame.tauG * d, e.dot(e2), frame.tauG * d,
             frame.kappaB * d - 1;
-        const Vec3 step = -J.inverse() * g;
+        const Vector3 step = -J.inverse() * g;
         s0 += step[0];
         C = ellipsoid.calcDisplacedPoint(C, step[1] * e1 + step[2] * e2);
     }
@@ -101,10 +101,10 @@ std::vector<Tab7_1Row> iterateTab7_1(const Ellipsoid& ellipsoid, const Vec3& A, 
 to be the point to which Newton steps along the gradient (Eqn. 7.24) bring (2.5, 1.5, 1): found from the first two
 norms, confirmed by all the others. */
 TEST(SignedDistance, EllipsoidOfThesisTab7_1) {
-    const Ellipsoid ellipsoid(Vec3(5, 3, 4));
-    const Vec3 A(-10, 10, 0), B(10, 5, 3);
+    const Ellipsoid ellipsoid(Vector3(5, 3, 4));
+    const Vector3 A(-10, 10, 0), B(10, 5, 3);
     const struct {
-        Vec3 C, D;
+        Vector3 C, D;
         double norm, distance;
     } printed[] = {{{2.95, 2.22, 1.28}, {-5.20, 8.80, 0.72}, 13.980143866214055, 10.49},
                    {{1.00, 2.86, 0.91}, {1.87, 7.03, 1.78}, 0.367150387900821, 4.35},
@@ -112,7 +112,7 @@ TEST(SignedDistance, EllipsoidOfThesisTab7_1) {
                    {{1.65, 2.73, 1.02}, {2.56, 6.86, 1.88}, 0.000011270733715, 4.32},
                    {{1.65, 2.73, 1.02}, {2.56, 6.86, 1.88}, 0.000000000014995, 4.32},
                    {{1.65, 2.73, 1.02}, {2.56, 6.86, 1.88}, 0.0000000000000000, 4.32}};
-    const std::vector<Tab7_1Row> rows = iterateTab7_1(ellipsoid, A, B, Vec3(2.5, 1.5, 1), 5);
+    const std::vector<Tab7_1Row> rows = iterateTab7_1(ellipsoid, A, B, Vector3(2.5, 1.5, 1), 5);
     for (int k = 0; k < 6; ++k) {
         SCOPED_TRACE("row " + std::to_string(k + 1));
         EXPECT_NEAR(rows[k].norm, printed[k].norm, k < 2 ? 2e-14 : 5e-15);  // rounding of A, B, C of order ten
@@ -129,11 +129,11 @@ TEST(SignedDistance, EllipsoidOfThesisTab7_1) {
 
 /** The same from the starting points as they are printed; expected norms: errata. */
 TEST(SignedDistance, EllipsoidOfThesisTab7_1FromRoundedStart) {
-    const Vec3 A(-10, 10, 0), B(10, 5, 3);
+    const Vector3 A(-10, 10, 0), B(10, 5, 3);
     const double norms[] = {13.97, 0.3653, 0.009780, 1.118e-5, 1.5e-11, 3e-16};
     const double tolerances[] = {5e-3, 5e-5, 5e-7, 5e-9, 5e-13, 1e-14};  // digits printed; rounding in the last
-    const double s0 = (Vec3(-5.20, 8.80, 0.72) - A).dot((B - A).normalized());
-    const std::vector<Tab7_1Row> rows = iterateTab7_1(Ellipsoid(Vec3(5, 3, 4)), A, B, Vec3(2.95, 2.22, 1.28), s0);
+    const double s0 = (Vector3(-5.20, 8.80, 0.72) - A).dot((B - A).normalized());
+    const std::vector<Tab7_1Row> rows = iterateTab7_1(Ellipsoid(Vector3(5, 3, 4)), A, B, Vector3(2.95, 2.22, 1.28), s0);
     for (int k = 0; k < 6; ++k) EXPECT_NEAR(rows[k].norm, norms[k], tolerances[k]) << "row " << k + 1;
 }
 
@@ -142,15 +142,15 @@ TEST(SignedDistance, ClosedForms) {
     for (int i = 0; i < 50; ++i) {
         const Pose X = random.pose(5);
         const double phi = random.uniform(-kPi, kPi);
-        const Vec3 A(3 * std::cos(phi), 3 * std::sin(phi), random.uniform(-1, 1));
-        const Vec3 e = (random.vector(0.8) - A).normalized();  // towards the middle
-        const Vec3 B = A + 6 * e;
+        const Vector3 A(3 * std::cos(phi), 3 * std::sin(phi), random.uniform(-1, 1));
+        const Vector3 e = (random.vector(0.8) - A).normalized();  // towards the middle
+        const Vector3 B = A + 6 * e;
         LineClearance sphere, cylinder;
         findSegmentClearance(Sphere(0.5), X, X * A, X * B, sphere);
         EXPECT_NEAR(sphere.distance, (A - A.dot(e) * e).norm() - 0.5, 1e-13);
         EXPECT_NEAR(sphere.lineCoordinate, -A.dot(e), 1e-13);  // 0.5 from the center at most
         findSegmentClearance(Cylinder(0.5), X, X * A, X * B, cylinder);
-        const Vec3 common = e.cross(Vec3::UnitZ());
+        const Vector3 common = e.cross(Vector3::UnitZ());
         const double s = -A.head<2>().dot(e.head<2>()) / e.head<2>().squaredNorm();
         ASSERT_TRUE(s > 0 && s < 6);
         EXPECT_NEAR(cylinder.distance, std::abs(A.dot(common.normalized())) - 0.5, 1e-12);
@@ -161,7 +161,7 @@ TEST(SignedDistance, TorusSeenAlongItsTube) {
     // Lines parallel to the axis, beside and through the tube whose center is at (2, 0, 0).
     for (double x : {2.5, 2.301, 2.3, 2.299, 2.1, 1.6}) {
         LineClearance clearance;
-        findSegmentClearance(Torus(2, 0.3), Pose(), Vec3(x, 0, -3), Vec3(x, 0, 3), clearance);
+        findSegmentClearance(Torus(2, 0.3), Pose(), Vector3(x, 0, -3), Vector3(x, 0, 3), clearance);
         EXPECT_NEAR(clearance.distance, std::abs(x - 2) - 0.3, 1e-12) << x;
         EXPECT_NEAR(clearance.lineCoordinate, 3, 1e-6) << x;
     }
@@ -169,7 +169,7 @@ TEST(SignedDistance, TorusSeenAlongItsTube) {
 
 TEST(SignedDistance, CriticalPointBeyondAnEndLeavesTheHeightOfThatEnd) {
     LineClearance clearance;
-    findSegmentClearance(Sphere(1), Pose(), Vec3(2, 0.5, 0), Vec3(5, 0.5, 0), clearance);
+    findSegmentClearance(Sphere(1), Pose(), Vector3(2, 0.5, 0), Vector3(5, 0.5, 0), clearance);
     EXPECT_NEAR(clearance.distance, std::hypot(2, 0.5) - 1, 1e-14);
     EXPECT_EQ(clearance.lineCoordinate, 0);
 }
@@ -184,16 +184,16 @@ struct Sunk {
 std::vector<Sunk> makeSunk() {
     return {{"sphere", std::make_shared<Sphere>(kTop), Pose()},
             {"cylinder", std::make_shared<Cylinder>(kTop), Pose()},
-            {"ellipsoid", std::make_shared<Ellipsoid>(Vec3(0.6, kTop, 0.9)), Pose()},
-            {"parametric ellipsoid", std::make_shared<ParametricEllipsoid>(Vec3(0.6, kTop, 0.9)), Pose()},
-            {"layer", std::make_shared<OffsetSurface>(std::make_shared<Ellipsoid>(Vec3(0.5, kTop - 0.1, 0.8)), 0.1),
+            {"ellipsoid", std::make_shared<Ellipsoid>(Vector3(0.6, kTop, 0.9)), Pose()},
+            {"parametric ellipsoid", std::make_shared<ParametricEllipsoid>(Vector3(0.6, kTop, 0.9)), Pose()},
+            {"layer", std::make_shared<OffsetSurface>(std::make_shared<Ellipsoid>(Vector3(0.5, kTop - 0.1, 0.8)), 0.1),
              Pose()},
-            {"torus", std::make_shared<Torus>(2, kTop), Pose(Vec3(0, -2, 0))}};
+            {"torus", std::make_shared<Torus>(2, kTop), Pose(Vector3(0, -2, 0))}};
 }
 
 /** Clearance of a line along x at height y, a little beside the middle. */
 void calcClearanceAt(const Sunk& sunk, double y, LineClearance& clearance) {
-    findSegmentClearance(*sunk.surface, sunk.X, Vec3(-3, y, 0.1), Vec3(3, y, 0.1), clearance);
+    findSegmentClearance(*sunk.surface, sunk.X, Vector3(-3, y, 0.1), Vector3(3, y, 0.1), clearance);
 }
 
 TEST(SignedDistance, LinePassingCleanThroughInOneStepReadsNegativeOnTheKeptSide) {
@@ -238,16 +238,16 @@ TEST(SignedDistance, NoLineThroughABodyIsClearFromWhateverSideItIsWatched) {
     for (int i = 0; i < 20000; ++i) {
         const auto axis = [&] { return random.uniform(0.2, 1.0); };
         const double a = axis(), b = axis(), c = axis();
-        std::shared_ptr<const Surface> surface = std::make_shared<Ellipsoid>(Vec3(a, b, c));
+        std::shared_ptr<const Surface> surface = std::make_shared<Ellipsoid>(Vector3(a, b, c));
         if (i % 3 == 1) surface = std::make_shared<Capsule>(a, b, c);
         if (i % 3 == 2) surface = std::make_shared<EllipticCylinder>(a, b);
-        const Vec3 A = random.vector(1.5), B = random.vector(1.5);
+        const Vector3 A = random.vector(1.5), B = random.vector(1.5);
         double least = kInfinity;
         for (int k = 0; k <= 200; ++k) least = std::min(least, surface->calcHeight(A + 0.005 * k * (B - A)));
         if (std::min(surface->calcHeight(A), surface->calcHeight(B)) < 0) continue;
         LineClearance clearance;
         clearance.keptC = surface->findSurfacePoint(random.vector(2));
-        clearance.keptN = surface->calcFrame(clearance.keptC, Vec3(1, 2, 3)).N;
+        clearance.keptN = surface->calcFrame(clearance.keptC, Vector3(1, 2, 3)).N;
         findSegmentClearance(*surface, Pose(), A, B, clearance);
         if (least < -1e-4) {
             ++through;
@@ -262,20 +262,20 @@ TEST(SignedDistance, NoLineThroughABodyIsClearFromWhateverSideItIsWatched) {
 
 TEST(SignedDistance, TouchingLinesReadZero) {
     LineClearance clearance;
-    findSegmentClearance(Sphere(0.5), Pose(), Vec3(-1, 0.5, 0), Vec3(1, 0.5, 0), clearance);
+    findSegmentClearance(Sphere(0.5), Pose(), Vector3(-1, 0.5, 0), Vector3(1, 0.5, 0), clearance);
     EXPECT_NEAR(clearance.distance, 0, 1e-16);
     clearance = LineClearance();
-    findSegmentClearance(Ellipsoid(Vec3(1, 0.5, 2)), Pose(), Vec3(-1, 0.5, 0), Vec3(1, 0.5, 0), clearance);
+    findSegmentClearance(Ellipsoid(Vector3(1, 0.5, 2)), Pose(), Vector3(-1, 0.5, 0), Vector3(1, 0.5, 0), clearance);
     EXPECT_NEAR(clearance.distance, 0, 1e-15);
     clearance = LineClearance();
-    findSegmentClearance(Cylinder(0.5), Pose(), Vec3(0.5, 0, -1), Vec3(0.5, 0, 1), clearance);  // along the axis
+    findSegmentClearance(Cylinder(0.5), Pose(), Vector3(0.5, 0, -1), Vector3(0.5, 0, 1), clearance);  // along the axis
     EXPECT_NEAR(clearance.distance, 0, 1e-16);
 }
 
 TEST(SignedDistance, DegenerateLinesStayFinite) {
     for (const Shape& shape : makeShapes())
-        for (const Vec3& B : {Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(3, 0, 0)})
-            for (const Vec3& A : {Vec3(0, 0, 0), Vec3(0, 0, -1), Vec3(-1, 0, 0), Vec3(0, 5, 0)}) {
+        for (const Vector3& B : {Vector3(0, 0, 0), Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(3, 0, 0)})
+            for (const Vector3& A : {Vector3(0, 0, 0), Vector3(0, 0, -1), Vector3(-1, 0, 0), Vector3(0, 5, 0)}) {
                 LineClearance clearance;
                 findSegmentClearance(*shape.surface, Pose(), A, B, clearance);
                 EXPECT_TRUE(std::isfinite(clearance.distance))

@@ -18,7 +18,7 @@ constexpr unsigned kSeed = 20261127;
 
 const BSplineSolid& getSolid() {
     static const BSplineSolid solid =
-        fitSolid(testing::scaleMesh(testing::makeBallMesh(1), Vec3(0.03, 0.05, 0.04))).solid;
+        fitSolid(testing::scaleMesh(testing::makeBallMesh(1), Vector3(0.03, 0.05, 0.04))).solid;
     return solid;
 }
 
@@ -40,7 +40,7 @@ TEST(SolidFile, GivesBackTheSameBits) {
     EXPECT_EQ(read.getDescription(), getSolid().getDescription());
     testing::Random random(kSeed);
     for (int i = 0; i < 1000; ++i) {
-        const Vec3 p = random.vector(0.1);
+        const Vector3 p = random.vector(0.1);
         const ImplicitValue before = getSolid().calcImplicit(p), after = read.calcImplicit(p);
         EXPECT_EQ(before.f, after.f);
         EXPECT_EQ(before.gradient, after.gradient);

@@ -22,7 +22,8 @@ namespace {
 constexpr unsigned kSeed = 20261127;
 
 /** A string from one point to another, over an obstacle in ground that it passes near `near`. */
-PathSolution solveOver(std::shared_ptr<const Surface> surface, const Vec3& from, const Vec3& to, const Vec3& near) {
+PathSolution solveOver(std::shared_ptr<const Surface> surface, const Vector3& from, const Vector3& to,
+                       const Vector3& near) {
     PathProblem problem;
     problem.addPoint("origin");
     problem.addObstacle("obstacle", std::move(surface), PassNear{near});
@@ -38,11 +39,11 @@ struct Refinement {
     std::shared_ptr<const Surface> exact;
     std::vector<TriangleMesh> meshes;
     double coarsestWidth;
-    Vec3 from, to, near;
+    Vector3 from, to, near;
 };
 
 std::vector<Refinement> makeRefinements() {
-    const Vec3 axes(0.05, 0.03, 0.08);
+    const Vector3 axes(0.05, 0.03, 0.08);
     Refinement sphere{"sphere",    std::make_shared<Sphere>(0.05), {}, 0.008, {-0.1, 0.01, 0}, {0.09, 0, 0.03},
                       {0, 0.05, 0}};
     Refinement ellipsoid{
@@ -50,7 +51,7 @@ std::vector<Refinement> makeRefinements() {
     Refinement torus{
         "torus", std::make_shared<Torus>(0.1, 0.03), {}, 0.006, {0.1, -0.02, 0.06}, {0.12, 0.03, -0.07}, {0.13, 0, 0}};
     for (const int level : {0, 1, 2}) {
-        sphere.meshes.push_back(testing::scaleMesh(testing::makeBallMesh(2 + level), Vec3::Constant(0.05)));
+        sphere.meshes.push_back(testing::scaleMesh(testing::makeBallMesh(2 + level), Vector3::Constant(0.05)));
         ellipsoid.meshes.push_back(testing::scaleMesh(testing::makeBallMesh(2 + level), axes));
         torus.meshes.push_back(testing::makeTorusMesh(0.1, 0.03, 12 << level));
     }
@@ -88,10 +89,10 @@ TEST(SolidFit, ABallShrinksByTheSquareOfTheWidthOverItsRadius) {
     options.width = width;
     for (const double spacing : {width / 1.7, width, 1.6 * width}) {
         options.spacing = spacing;
-        const SolidFit fit = fitSolid(testing::scaleMesh(testing::makeBallMesh(4), Vec3::Constant(radius)), options);
+        const SolidFit fit = fitSolid(testing::scaleMesh(testing::makeBallMesh(4), Vector3::Constant(radius)), options);
         testing::Random random(kSeed);
         for (int i = 0; i < 100; ++i) {
-            const Vec3 foot = fit.solid.findSurfacePoint(0.06 * random.unitVector()).p;
+            const Vector3 foot = fit.solid.findSurfacePoint(0.06 * random.unitVector()).p;
             EXPECT_NEAR(radius - foot.norm(), width * width / radius, 0.15 * width * width / radius) << spacing;
         }
         EXPECT_NEAR(fit.report.rms, width * width / radius, 0.2 * width * width / radius);
@@ -101,7 +102,7 @@ TEST(SolidFit, ABallShrinksByTheSquareOfTheWidthOverItsRadius) {
 TEST(SolidFit, AConvexMeshGivesAConvexSolid) {
     TriangleMesh octahedron;
     for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {0.04, -0.04}) octahedron.points.push_back(side * Vec3::Unit(axis));
+        for (const double side : {0.04, -0.04}) octahedron.points.push_back(side * Vector3::Unit(axis));
     octahedron.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     SolidFitOptions options;
     options.width = 0.004;
@@ -133,7 +134,7 @@ TEST(SolidFit, HolesDoubleFacesAndOverlapsDoNotShow) {
         std::swap(faulty.triangles[5 * i + 1][0], faulty.triangles[5 * i + 1][1]);
     }
     // A ball wholly inside, its faces inward: it must be no cavity.
-    TriangleMesh inner = testing::scaleMesh(testing::makeBallMesh(2), Vec3::Constant(0.004));
+    TriangleMesh inner = testing::scaleMesh(testing::makeBallMesh(2), Vector3::Constant(0.004));
     for (auto& triangle : inner.triangles) std::swap(triangle[0], triangle[1]);
     faulty = testing::joinMeshes(faulty, inner);
     SolidFitOptions options;
@@ -142,31 +143,31 @@ TEST(SolidFit, HolesDoubleFacesAndOverlapsDoNotShow) {
     EXPECT_EQ(fit.repaired.closedHoles, 8);
     EXPECT_EQ(fit.repaired.doubleTriangles, 50);
     EXPECT_EQ(fit.repaired.parts, 2);
-    EXPECT_LT(fit.solid.calcHeight(Vec3::Zero()), -0.5 * options.width);  // within the ball inside
-    for (const Vec3& point : whole.points) {
-        const Vec3 foot = whole.solid.findSurfacePoint(point).p;
+    EXPECT_LT(fit.solid.calcHeight(Vector3::Zero()), -0.5 * options.width);  // within the ball inside
+    for (const Vector3& point : whole.points) {
+        const Vector3 foot = whole.solid.findSurfacePoint(point).p;
         EXPECT_NEAR(fit.solid.calcHeight(foot), 0, 0.3 * options.width);
     }
 }
 
 TEST(SolidFit, ResidualsAreTakenOnTheOutsideOnly) {
-    const TriangleMesh ball = testing::scaleMesh(testing::makeBallMesh(3), Vec3::Constant(0.05));
-    const TriangleMesh two = testing::joinMeshes(ball, testing::scaleMesh(ball, Vec3::Ones(), Vec3(0.03, 0, 0)));
+    const TriangleMesh ball = testing::scaleMesh(testing::makeBallMesh(3), Vector3::Constant(0.05));
+    const TriangleMesh two = testing::joinMeshes(ball, testing::scaleMesh(ball, Vector3::Ones(), Vector3(0.03, 0, 0)));
     SolidFitOptions options;
     options.width = 0.002;
     const SolidFit fit = fitSolid(two, options);
-    for (const Vec3& point : fit.points) {
+    for (const Vector3& point : fit.points) {
         EXPECT_GT(point.norm(), 0.0495 - 1e-3);
-        EXPECT_GT((point - Vec3(0.03, 0, 0)).norm(), 0.0495 - 1e-3);
+        EXPECT_GT((point - Vector3(0.03, 0, 0)).norm(), 0.0495 - 1e-3);
     }
     ASSERT_EQ(fit.points.size(), fit.report.residuals.size());
-    const Vec3& worst = fit.points[static_cast<std::size_t>(fit.report.worst)];
+    const Vector3& worst = fit.points[static_cast<std::size_t>(fit.report.worst)];
     EXPECT_NEAR(worst.x(), 0.015, 0.005);  // in the groove, which smoothing fills
     EXPECT_GT(fit.report.largest, 2 * fit.report.rms);
 }
 
 TEST(SolidFit, RefusesWidthsAndSpacingsOutOfProportion) {
-    const TriangleMesh ball = testing::scaleMesh(testing::makeBallMesh(2), Vec3::Constant(0.05));
+    const TriangleMesh ball = testing::scaleMesh(testing::makeBallMesh(2), Vector3::Constant(0.05));
     const auto expectRefusal = [&](double width, double spacing, const std::string& message) {
         SolidFitOptions options;
         options.width = width, options.spacing = spacing;

@@ -32,15 +32,15 @@ struct TouchAndGo {
 
     explicit TouchAndGo(int count) {
         problem.addPoint("origin");
-        problem.addObstacle("first", std::make_shared<Ellipsoid>(Vec3(0.2, 0.3, 0.4)));
-        problem.addObstacle("second", std::make_shared<Cylinder>(0.2), PassOnSide{Vec3::UnitY()});
+        problem.addObstacle("first", std::make_shared<Ellipsoid>(Vector3(0.2, 0.3, 0.4)));
+        problem.addObstacle("second", std::make_shared<Cylinder>(0.2), PassOnSide{Vector3::UnitY()});
         problem.addPoint("insertion");
         for (int i = 0; i < count; ++i) {
             const double t = 0.05 * i;
-            const Mat3 R = Eigen::AngleAxisd(0.5 * std::sin(t), Vec3(1, 2, 3).normalized()).toRotationMatrix();
+            const Matrix3 R = Eigen::AngleAxisd(0.5 * std::sin(t), Vector3(1, 2, 3).normalized()).toRotationMatrix();
             PathPose pose;
-            pose.X_GE = {Pose(Vec3(-1, 0.1, 0)), Pose(R, Vec3(0, 0.3 * std::sin(t) - 0.15, 0.02)),
-                         Pose(Vec3(1, 0.2 * std::cos(1.7 * t) - 0.1, 0)), Pose(Vec3(2, -0.05, 0.1))};
+            pose.X_GE = {Pose(Vector3(-1, 0.1, 0)), Pose(R, Vector3(0, 0.3 * std::sin(t) - 0.15, 0.02)),
+                         Pose(Vector3(1, 0.2 * std::cos(1.7 * t) - 0.1, 0)), Pose(Vector3(2, -0.05, 0.1))};
             poses.push_back(pose);
         }
     }

@@ -42,20 +42,20 @@ class UserSaddle final : public ParametricSurface {
 public:
     double getSize() const override { return 0.5; }
     std::string getDescription() const override { return "user's saddle"; }
-    ParameterDomain getDomain() const override { return {Vec2(-1, -1), Vec2(1, 1)}; }
-    ParametricValue calcParametric(const Vec2& uv, int) const override {
+    ParameterDomain getDomain() const override { return {Vector2(-1, -1), Vector2(1, 1)}; }
+    ParametricValue calcParametric(const Vector2& uv, int) const override {
         const double u = uv[0], v = uv[1];
-        return {{u, v, u * u - v * v}, {1, 0, 2 * u}, {0, 1, -2 * v}, {0, 0, 2}, Vec3::Zero(), {0, 0, -2}};
+        return {{u, v, u * u - v * v}, {1, 0, 2 * u}, {0, 1, -2 * v}, {0, 0, 2}, Vector3::Zero(), {0, 0, -2}};
     }
 };
 
 TEST(UserSurfaces, WrittenFromTheVirtualBaseObeyTheLaws) {
     const UserSaddle saddle;
-    const auto samples = testing::makeSamples(saddle, 0.6, Vec3::Zero(), 0.4, {Vec3::Zero()}, 20, kSeed);
+    const auto samples = testing::makeSamples(saddle, 0.6, Vector3::Zero(), 0.4, {Vector3::Zero()}, 20, kSeed);
     const std::vector<std::string> broken = checkSurfaceLaws(saddle, samples);
     EXPECT_TRUE(broken.empty()) << join(broken);
-    EXPECT_TRUE(saddle.isInDomain(saddle.findSurfacePoint(Vec3(0.1, 0.2, 0))));
-    EXPECT_FALSE(saddle.isInDomain(saddle.findSurfacePoint(Vec3(2, 0, 4))));
+    EXPECT_TRUE(saddle.isInDomain(saddle.findSurfacePoint(Vector3(0.1, 0.2, 0))));
+    EXPECT_FALSE(saddle.isInDomain(saddle.findSurfacePoint(Vector3(2, 0, 4))));
 }
 
 /** An ellipsoid whose user took one entry of the Hessian wrong. */
@@ -63,14 +63,14 @@ class WrongHessian final : public ImplicitShape<WrongHessian> {
 public:
     double getSize() const override { return 0.03; }
     std::string getDescription() const override { return "wrong"; }
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    ImplicitValue calcImplicit(const Vector3& p) const {
         ImplicitValue value = m_right.calcImplicit(p);
         value.hessian(0, 0) *= 1.01;
         return value;
     }
 
 private:
-    Ellipsoid m_right{Vec3(0.05, 0.03, 0.08)};
+    Ellipsoid m_right{Vector3(0.05, 0.03, 0.08)};
 };
 
 /** A sphere whose user took the inside for the outside. */
@@ -78,7 +78,7 @@ class InsideOut final : public ImplicitShape<InsideOut> {
 public:
     double getSize() const override { return 0.4; }
     std::string getDescription() const override { return "inside out"; }
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    ImplicitValue calcImplicit(const Vector3& p) const {
         ImplicitValue value = m_right.calcImplicit(p);
         return {value.f, -value.gradient, value.hessian};
     }
@@ -95,7 +95,7 @@ bool names(const std::vector<std::string>& broken, const std::string& law) {
 
 TEST(SurfaceLawsReport, FindsAWrongHessian) {
     const WrongHessian wrong;
-    const auto samples = testing::makeSamples(wrong, 0.1, Vec3::Zero(), 0.1, {}, 10, kSeed);
+    const auto samples = testing::makeSamples(wrong, 0.1, Vector3::Zero(), 0.1, {}, 10, kSeed);
     const std::vector<std::string> broken = checkSurfaceLaws(wrong, samples);
     EXPECT_TRUE(names(broken, "law 5 (kappaN")) << join(broken);
     EXPECT_TRUE(names(broken, "law 10")) << join(broken);
@@ -105,21 +105,23 @@ TEST(SurfaceLawsReport, FindsAWrongHessian) {
 
 TEST(SurfaceLawsReport, FindsAFlippedGradient) {
     const InsideOut wrong;
-    const std::vector<std::string> broken = checkSurfaceLaws(wrong, {{Vec3(0.4, 0, 0), Vec3(0.1, 1, 0), 0.3}});
+    const std::vector<std::string> broken = checkSurfaceLaws(wrong, {{Vector3(0.4, 0, 0), Vector3(0.1, 1, 0), 0.3}});
     EXPECT_TRUE(names(broken, "law 3")) << join(broken);
 }
 
 TEST(SurfaceLawsReport, NamesTheWrongDerivativeOfAFunction) {
-    const auto value = [](const Vec3& p) { return 0.5 * (p.x() * p.x() / 0.3 + p.y() * p.y() + p.z() * p.z() - 0.3); };
-    const auto gradient = [](const Vec3& p) { return Vec3(p.x() / 0.3, p.y(), p.z()); };
-    const auto wrongGradient = [](const Vec3& p) { return Vec3(p.x() / 0.3, p.y(), 1.001 * p.z()); };
-    const auto hessian = [](const Vec3&) { return Mat3(Vec3(1 / 0.3, 1, 1).asDiagonal()); };
-    const auto wrongHessian = [](const Vec3&) {
-        Mat3 H = Vec3(1 / 0.3, 1, 1).asDiagonal();
+    const auto value = [](const Vector3& p) {
+        return 0.5 * (p.x() * p.x() / 0.3 + p.y() * p.y() + p.z() * p.z() - 0.3);
+    };
+    const auto gradient = [](const Vector3& p) { return Vector3(p.x() / 0.3, p.y(), p.z()); };
+    const auto wrongGradient = [](const Vector3& p) { return Vector3(p.x() / 0.3, p.y(), 1.001 * p.z()); };
+    const auto hessian = [](const Vector3&) { return Matrix3(Vector3(1 / 0.3, 1, 1).asDiagonal()); };
+    const auto wrongHessian = [](const Vector3&) {
+        Matrix3 H = Vector3(1 / 0.3, 1, 1).asDiagonal();
         H(0, 2) = 0.01;
         return H;
     };
-    const std::vector<SurfaceLawSample> samples = {{Vec3(0.1, 0.2, 0.4), Vec3(1, 0, 0.3), 0.2}};
+    const std::vector<SurfaceLawSample> samples = {{Vector3(0.1, 0.2, 0.4), Vector3(1, 0, 0.3), 0.2}};
     const auto check = [&](const auto& g, const auto& H) {
         return checkSurfaceLaws(ImplicitFunctionSurface("egg", 0.3, value, g, H), samples);
     };
@@ -137,8 +139,8 @@ class WrongTwist final : public ParametricSurface {
 public:
     double getSize() const override { return 0.5; }
     std::string getDescription() const override { return "wrong twist"; }
-    ParameterDomain getDomain() const override { return {Vec2(-1, -1), Vec2(1, 1)}; }
-    ParametricValue calcParametric(const Vec2& uv, int chart) const override {
+    ParameterDomain getDomain() const override { return {Vector2(-1, -1), Vector2(1, 1)}; }
+    ParametricValue calcParametric(const Vector2& uv, int chart) const override {
         ParametricValue value = m_right.calcParametric(uv, chart);
         value.xuv.z() = 0.02;
         return value;
@@ -149,7 +151,8 @@ private:
 };
 
 TEST(SurfaceLawsReport, NamesTheWrongDerivativeOfAParametricSurface) {
-    const std::vector<std::string> broken = checkSurfaceLaws(WrongTwist(), {{Vec3(0.1, 0.2, 0), Vec3(1, 0, 0.3), 0.2}});
+    const std::vector<std::string> broken =
+        checkSurfaceLaws(WrongTwist(), {{Vector3(0.1, 0.2, 0), Vector3(1, 0, 0.3), 0.2}});
     EXPECT_TRUE(names(broken, "law 13 (d2x/dudv")) << join(broken);
     EXPECT_FALSE(names(broken, "d2x/dudu") || names(broken, "d2x/dvdv") || names(broken, "dx/du is")) << join(broken);
 }
@@ -157,29 +160,29 @@ TEST(SurfaceLawsReport, NamesTheWrongDerivativeOfAParametricSurface) {
 /** The stated schemes against exact derivatives of the same functions. */
 TEST(FunctionSurfaces, DifferencesAreGoodToSomeTrillionths) {
     const ImplicitFunctionSurface exact = testing::makePear();
-    const auto value = [&](const Vec3& p) { return exact.calcImplicit(p).f; };
-    const auto gradient = [&](const Vec3& p) { return exact.calcImplicit(p).gradient; };
+    const auto value = [&](const Vector3& p) { return exact.calcImplicit(p).f; };
+    const auto gradient = [&](const Vector3& p) { return exact.calcImplicit(p).gradient; };
     const ImplicitFunctionSurface byValues("pear", 0.2, value), byGradients("pear", 0.2, value, gradient);
-    const ParameterDomain square{Vec2(-1, -1), Vec2(1, 1)};
+    const ParameterDomain square{Vector2(-1, -1), Vector2(1, 1)};
     const auto formula = [](auto u, auto v) {
         using Number = decltype(u);
         return std::array<Number, 3>{u + 0.1 * v, v - 0.1 * u * u, 0.3 * sin(u) * cos(v)};
     };
     const ParametricFunctionSurface sheet = makeParametricSurface("sheet", 0.5, square, formula);
     const auto byPositions = ParametricFunctionSurface::fromPosition(
-        "sheet", 0.5, square, [&](const Vec2& uv) { return sheet.calcParametric(uv, 0).x; });
+        "sheet", 0.5, square, [&](const Vector2& uv) { return sheet.calcParametric(uv, 0).x; });
     double gradients = 0, hessians = 0, halfHessians = 0, first = 0, second = 0;
     std::mt19937 random(kSeed);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (int i = 0; i < 200; ++i) {
-        const Vec3 p = exact.findSurfacePoint(0.3 * Vec3(uniform(random), uniform(random), uniform(random))).p;
+        const Vector3 p = exact.findSurfacePoint(0.3 * Vector3(uniform(random), uniform(random), uniform(random))).p;
         const ImplicitValue truth = exact.calcImplicit(p), v = byValues.calcImplicit(p),
                             g = byGradients.calcImplicit(p);
         gradients = std::max(gradients, (v.gradient - truth.gradient).norm() / truth.gradient.norm());
         hessians = std::max(hessians, (v.hessian - truth.hessian).norm() / truth.hessian.norm());
         halfHessians = std::max(halfHessians, (g.hessian - truth.hessian).norm() / truth.hessian.norm());
         EXPECT_EQ((v.hessian - v.hessian.transpose()).norm() + (g.hessian - g.hessian.transpose()).norm(), 0);
-        const Vec2 uv(uniform(random), uniform(random));
+        const Vector2 uv(uniform(random), uniform(random));
         const ParametricValue x = sheet.calcParametric(uv, 0), d = byPositions.calcParametric(uv, 0);
         first = std::max({first, (d.xu - x.xu).norm(), (d.xv - x.xv).norm()});
         second = std::max({second, (d.xuu - x.xuu).norm(), (d.xuv - x.xuv).norm(), (d.xvv - x.xvv).norm()});
@@ -196,9 +199,9 @@ TEST(FunctionSurfaces, DifferencesAreGoodToSomeTrillionths) {
 
 /** An egg by a formula; how often it was asked says which checks were made. */
 TEST(FunctionSurfaces, PromisedConvexAreTrustedAndNotChecked) {
-    const Vec3 axes(0.3, 0.2, 0.25);
+    const Vector3 axes(0.3, 0.2, 0.25);
     int calls = 0;
-    const auto formula = [&](const Vec3& p) -> ImplicitValue {
+    const auto formula = [&](const Vector3& p) -> ImplicitValue {
         ++calls;
         return Ellipsoid(axes).calcImplicit(p);
     };
@@ -214,10 +217,10 @@ TEST(FunctionSurfaces, PromisedConvexAreTrustedAndNotChecked) {
     for (const bool isConvex : {false, true}) {
         PathProblem problem;
         problem.addPoint("origin");
-        problem.addObstacle("egg", make(isConvex), Vec3(0, 0, 1));
+        problem.addObstacle("egg", make(isConvex), Vector3(0, 0, 1));
         problem.addPoint("insertion");
         PathPose pose;
-        pose.X_GE = {Pose(Vec3(-1, 0, 0.1)), Pose(), Pose(Vec3(1, 0.1, 0))};
+        pose.X_GE = {Pose(Vector3(-1, 0, 0.1)), Pose(), Pose(Vector3(1, 0.1, 0))};
         const PathSolution path = solvePath(problem, pose);
         ASSERT_EQ(path.status, PathStatus::Solved);
         ASSERT_TRUE(path.contacts[1].isTouched);
@@ -251,14 +254,14 @@ ImplicitFunctionSurface makeImplicitSaddle() {
 TEST(SameSurface, HoldsForAUsersTwoForms) {
     const UserSaddle parametric;
     const ImplicitFunctionSurface implicit = makeImplicitSaddle();
-    const auto samples = testing::makeSamples(implicit, 0.3, Vec3::Zero(), 0.4, {Vec3::Zero()}, 40, kSeed);
+    const auto samples = testing::makeSamples(implicit, 0.3, Vector3::Zero(), 0.4, {Vector3::Zero()}, 40, kSeed);
     for (const auto& broken :
          {checkSameSurface(implicit, parametric, samples), checkSameSurface(parametric, implicit, samples)})
         EXPECT_TRUE(broken.empty()) << join(broken);
 }
 
 TEST(SameSurface, NamesAWrongRadiusWithPlaceAndAmount) {
-    const std::vector<SurfaceLawSample> samples = {{Vec3(0, 0.5, 0), Vec3(1, 0, 0), 0.3}};
+    const std::vector<SurfaceLawSample> samples = {{Vector3(0, 0.5, 0), Vector3(1, 0, 0), 0.3}};
     const std::vector<std::string> broken = checkSameSurface(Sphere(0.4), ParametricSphere(0.41), samples);
     EXPECT_EQ(findBrokenLaws(broken), std::set<int>{14}) << join(broken);
     // 0.01 of 0.4
@@ -269,8 +272,8 @@ TEST(SameSurface, NamesAWrongRadiusWithPlaceAndAmount) {
 
 /** A part that is missing is found by the points of the other, if the samples go there. */
 TEST(SameSurface, NamesTheSurfaceThatGoesOnWhereTheOtherEnds) {
-    const std::vector<SurfaceLawSample> middle = {{Vec3(0.4, 0, 0.1), Vec3(0, 1, 0), 0.1}};
-    const std::vector<SurfaceLawSample> beyond = {{Vec3(0.4, 0, 1), Vec3(0, 1, 0), 0.1}};
+    const std::vector<SurfaceLawSample> middle = {{Vector3(0.4, 0, 0.1), Vector3(0, 1, 0), 0.1}};
+    const std::vector<SurfaceLawSample> beyond = {{Vector3(0.4, 0, 1), Vector3(0, 1, 0), 0.1}};
     const Cylinder cylinder(0.4);
     const Capsule capsule(0.4, 0.8, 0.4);
     EXPECT_TRUE(checkSameSurface(capsule, cylinder, middle).empty());
@@ -281,7 +284,7 @@ TEST(SameSurface, NamesANormalOfTheWrongSign) {
     // f, gradient and Hessian belong together, so that only another form of the sphere can tell.
     const ImplicitFunctionSurface wrong =
         makeImplicitSurface("turned over", 0.4, [](auto x, auto y, auto z) { return 0.16 - x * x - y * y - z * z; });
-    const auto samples = testing::makeSamples(wrong, 0.5, Vec3::Zero(), 0.3, {}, 10, kSeed);
+    const auto samples = testing::makeSamples(wrong, 0.5, Vector3::Zero(), 0.3, {}, 10, kSeed);
     const std::vector<std::string> broken = checkSameSurface(Sphere(0.4), wrong, samples);
     EXPECT_TRUE(names(broken, "law 16 (outward normals equal): 2 exceeds")) << join(broken);
     EXPECT_EQ(findBrokenLaws(broken), (std::set<int>{15, 16})) << join(broken);
@@ -292,11 +295,11 @@ class WrongHeight final : public ImplicitShape<WrongHeight> {
 public:
     double getSize() const override { return 0.4; }
     std::string getDescription() const override { return "wrong height"; }
-    ImplicitValue calcImplicit(const Vec3& p) const { return m_right.calcImplicit(p); }
-    double calcHeightAndNormal(const Vec3& p, Vec3& N) const override {
+    ImplicitValue calcImplicit(const Vector3& p) const { return m_right.calcImplicit(p); }
+    double calcHeightAndNormal(const Vector3& p, Vector3& N) const override {
         return m_factor * m_right.calcHeightAndNormal(p, N);
     }
-    SurfacePoint findSurfacePoint(const Vec3& p) const override { return m_right.findSurfacePoint(p); }
+    SurfacePoint findSurfacePoint(const Vector3& p) const override { return m_right.findSurfacePoint(p); }
     explicit WrongHeight(double factor) : m_factor(factor) {}
 
 private:
@@ -305,7 +308,7 @@ private:
 };
 
 TEST(SameSurface, NamesHeightsOfAnotherSignOrScale) {
-    const std::vector<SurfaceLawSample> samples = {{Vec3(0, 0.5, 0), Vec3(1, 0, 0), 0.3}};
+    const std::vector<SurfaceLawSample> samples = {{Vector3(0, 0.5, 0), Vector3(1, 0, 0), 0.3}};
     const auto sign = checkSameSurface(Sphere(0.4), WrongHeight(-1), samples),
                scale = checkSameSurface(Sphere(0.4), WrongHeight(1.01), samples);
     EXPECT_TRUE(names(sign, "law 15 (heights of one sign)")) << join(sign);
@@ -314,16 +317,18 @@ TEST(SameSurface, NamesHeightsOfAnotherSignOrScale) {
 }
 
 TEST(SameSurface, NamesTheCurvatureThatAWrongSecondDerivativeSpoils) {
-    const Vec3 axes(0.05, 0.03, 0.08);
+    const Vector3 axes(0.05, 0.03, 0.08);
     const WrongHessian wrongHessian;  // of d2f/dx2: at the pole of y what curves along x
-    const auto alongX = checkSameSurface(Ellipsoid(axes), wrongHessian, {{Vec3(0, 0.03, 0), Vec3(1, 0, 0), 0.02}});
+    const auto alongX =
+        checkSameSurface(Ellipsoid(axes), wrongHessian, {{Vector3(0, 0.03, 0), Vector3(1, 0, 0), 0.02}});
     EXPECT_TRUE(names(alongX, "law 17 (kappaN equal)")) << join(alongX);
     EXPECT_FALSE(names(alongX, "law 17 (kappaB") || names(alongX, "law 17 (tauG")) << join(alongX);
-    const auto acrossX = checkSameSurface(Ellipsoid(axes), wrongHessian, {{Vec3(0, 0.03, 0), Vec3(0, 0, 1), 0.02}});
+    const auto acrossX =
+        checkSameSurface(Ellipsoid(axes), wrongHessian, {{Vector3(0, 0.03, 0), Vector3(0, 0, 1), 0.02}});
     EXPECT_TRUE(names(acrossX, "law 17 (kappaB equal)")) << join(acrossX);
     EXPECT_FALSE(names(acrossX, "law 17 (kappaN")) << join(acrossX);
     const WrongTwist wrongTwist;  // of d2x/dudv: at the saddle's middle the torsion along x
-    const auto twisted = checkSameSurface(makeImplicitSaddle(), wrongTwist, {{Vec3::Zero(), Vec3(1, 0, 0), 0.2}});
+    const auto twisted = checkSameSurface(makeImplicitSaddle(), wrongTwist, {{Vector3::Zero(), Vector3(1, 0, 0), 0.2}});
     EXPECT_TRUE(names(twisted, "law 17 (tauG equal): 0.02 exceeds")) << join(twisted);
     EXPECT_FALSE(names(twisted, "law 17 (kappa")) << join(twisted);
     for (const auto& broken : {alongX, acrossX, twisted})
@@ -335,8 +340,9 @@ class WrongSpeed final : public ImplicitShape<WrongSpeed> {
 public:
     double getSize() const override { return 0.4; }
     std::string getDescription() const override { return "wrong speed"; }
-    ImplicitValue calcImplicit(const Vec3& p) const { return m_right.calcImplicit(p); }
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
+    ImplicitValue calcImplicit(const Vector3& p) const { return m_right.calcImplicit(p); }
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                       ShotGeodesic& geodesic) const override {
         m_right.shootGeodesic({start.point, start.tangent, 1.01 * start.length}, options, geodesic);
     }
 
@@ -345,7 +351,7 @@ private:
 };
 
 TEST(SameSurface, NamesGeodesicsThatEndElsewhere) {
-    const auto broken = checkSameSurface(Sphere(0.4), WrongSpeed(), {{Vec3(0, 0.5, 0), Vec3(1, 0, 0), 0.4}});
+    const auto broken = checkSameSurface(Sphere(0.4), WrongSpeed(), {{Vector3(0, 0.5, 0), Vector3(1, 0, 0), 0.4}});
     EXPECT_EQ(findBrokenLaws(broken), (std::set<int>{18, 19})) << join(broken);
     EXPECT_TRUE(names(broken, "law 18 (geodesics end at the same place): 0.00999996 exceeds")) << join(broken);
 }
@@ -361,8 +367,8 @@ TEST(SurfaceHeights, AreFiniteFromNearAndFromFarAndUnderLayers) {
     for (const auto& surface : surfaces)
         for (const double reach : {0.1, 1.0, 10.0, 100.0, 1000.0})
             for (int i = 0; i < 20; ++i) {
-                const Vec3 p = reach * surface->getSize() * random.vector(1);
-                Vec3 N;
+                const Vector3 p = reach * surface->getSize() * random.vector(1);
+                Vector3 N;
                 EXPECT_TRUE(std::isfinite(surface->calcHeightAndNormal(p, N)) && N.allFinite())
                     << surface->getDescription();
                 EXPECT_TRUE(surface->findSurfacePoint(p).p.allFinite()) << surface->getDescription() << p.transpose();
@@ -370,8 +376,8 @@ TEST(SurfaceHeights, AreFiniteFromNearAndFromFarAndUnderLayers) {
 }
 
 TEST(SurfaceLawsReport, RefusesASampleWithoutLength) {
-    EXPECT_THROW(checkSurfaceLaws(Sphere(1), {{Vec3(1, 0, 0), Vec3(0, 1, 0), 0}}), InvalidInput);
-    EXPECT_THROW(checkSameSurface(Sphere(1), Sphere(1), {{Vec3(1, 0, 0), Vec3(0, 1, 0), 0}}), InvalidInput);
+    EXPECT_THROW(checkSurfaceLaws(Sphere(1), {{Vector3(1, 0, 0), Vector3(0, 1, 0), 0}}), InvalidInput);
+    EXPECT_THROW(checkSameSurface(Sphere(1), Sphere(1), {{Vector3(1, 0, 0), Vector3(0, 1, 0), 0}}), InvalidInput);
 }
 
 }  // namespace

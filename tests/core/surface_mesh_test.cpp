@@ -11,14 +11,14 @@
 namespace tautline::testing {
 namespace {
 
-Vec3 calcMiddle(const SurfaceMesh& mesh, const std::array<int, 4>& face) {
-    Vec3 sum = Vec3::Zero();
+Vector3 calcMiddle(const SurfaceMesh& mesh, const std::array<int, 4>& face) {
+    Vector3 sum = Vector3::Zero();
     for (const int i : face) sum += mesh.points[i];
     return sum / 4;
 }
 
 /** Half the cross product of the diagonals: the facet's area along its normal. */
-Vec3 calcAreaVector(const SurfaceMesh& mesh, const std::array<int, 4>& face) {
+Vector3 calcAreaVector(const SurfaceMesh& mesh, const std::array<int, 4>& face) {
     const auto& p = mesh.points;
     return 0.5 * (p[face[2]] - p[face[0]]).cross(p[face[3]] - p[face[1]]);
 }
@@ -47,21 +47,21 @@ std::vector<int> findRim(const SurfaceMesh& mesh) {
 }
 
 /** From a point to the nearest of 5 x 5 points of each facet. */
-double calcDistance(const SurfaceMesh& mesh, const Vec3& p) {
+double calcDistance(const SurfaceMesh& mesh, const Vector3& p) {
     double least = kInfinity;
     for (const auto& face : mesh.faces)
         for (int i = 0; i <= 4; ++i)
             for (int j = 0; j <= 4; ++j) {
                 const double a = 0.25 * i, b = 0.25 * j;
-                const Vec3 low = (1 - a) * mesh.points[face[0]] + a * mesh.points[face[1]];
-                const Vec3 high = (1 - a) * mesh.points[face[3]] + a * mesh.points[face[2]];
+                const Vector3 low = (1 - a) * mesh.points[face[0]] + a * mesh.points[face[1]];
+                const Vector3 high = (1 - a) * mesh.points[face[3]] + a * mesh.points[face[2]];
                 least = std::min(least, ((1 - b) * low + b * high - p).norm());
             }
     return least;
 }
 
 bool endsSomewhere(const std::string& name) {
-    for (const char* part : {"Cylinder", "Paraboloid", "Plane", "Cone", "Patch", "Sheet", "Shell"})
+    for (const char* part : {"Cylinder", "Paraboloid", "HalfSpace", "Cone", "Patch", "Sheet", "Shell"})
         if (name.find(part) != std::string::npos) return true;
     return false;
 }
@@ -76,7 +76,7 @@ TEST_P(SurfaceMeshTest, PointsLieOnTheSurfaceAndInItsDomain) {
     const Surface& surface = *GetParam().surface;
     const SurfaceMesh mesh = calcMesh();
     EXPECT_GT(mesh.faces.size(), 50u);
-    for (const Vec3& p : mesh.points) {
+    for (const Vector3& p : mesh.points) {
         EXPECT_LT(std::abs(surface.calcHeight(p)), 1e-10 * surface.getSize());
         EXPECT_TRUE(surface.isInDomain(surface.findSurfacePoint(p))) << p.transpose();
     }
@@ -100,7 +100,7 @@ TEST_P(SurfaceMeshTest, FacetsFaceOutward) {
     for (const auto& face : mesh.faces) {
         const Surface& surface = *GetParam().surface;
         // Not the ascent of the height: a middle may be just beside the domain, where that leads aside.
-        const Vec3 N = surface.calcFrame(surface.findSurfacePoint(calcMiddle(mesh, face)), Vec3::UnitX()).N;
+        const Vector3 N = surface.calcFrame(surface.findSurfacePoint(calcMiddle(mesh, face)), Vector3::UnitX()).N;
         EXPECT_GT(calcAreaVector(mesh, face).normalized().dot(N), 0.3) << calcMiddle(mesh, face).transpose();
     }
 }
@@ -139,19 +139,19 @@ TEST(SurfaceMesh, AreaAndGenusOfClosedShapes) {
 }
 
 TEST(SurfaceMesh, SurfacesWithoutEndReachAsFarAsAsked) {
-    const SurfaceMesh plane = calcSurfaceMesh(Plane(0.2), 1.2);
+    const SurfaceMesh plane = calcSurfaceMesh(HalfSpace(0.2), 1.2);
     EXPECT_TRUE(plane.isCut);
     EXPECT_NEAR(calcArea(plane), 2.8 * 2.8, 1e-12);  // 1.2 beyond what is met from points 0.2 from the origin
-    const SurfaceMesh longer = calcSurfaceMesh(Plane(0.2), 1.2, {Vec3(5, 0, 0.3)});
+    const SurfaceMesh longer = calcSurfaceMesh(HalfSpace(0.2), 1.2, {Vector3(5, 0, 0.3)});
     EXPECT_NEAR(calcArea(longer), (1.4 + 6.2) * 2.8, 0.1);
-    EXPECT_TRUE(longer.box.contains(Vec3(5, 0, 0.3)));
+    EXPECT_TRUE(longer.box.contains(Vector3(5, 0, 0.3)));
     for (const auto& shape : {std::shared_ptr<const Surface>(std::make_shared<EllipticCylinder>(0.3, 0.1)),
                               std::shared_ptr<const Surface>(std::make_shared<Paraboloid>(14, 6))}) {
         const double size = shape->getSize();
         Eigen::AlignedBox3d drawn;
         const SurfaceMesh mesh = calcSurfaceMesh(*shape, 5 * size);
         EXPECT_TRUE(mesh.isCut);
-        for (const Vec3& p : mesh.points) drawn.extend(p);
+        for (const Vector3& p : mesh.points) drawn.extend(p);
         EXPECT_GE(drawn.max().z(), 5 * size) << shape->getDescription();
         EXPECT_NEAR(drawn.max().z(), mesh.box.max().z(), 0.2 * size) << shape->getDescription();
         EXPECT_NEAR(drawn.min().x(), -drawn.max().x(), 0.2 * size) << shape->getDescription();
@@ -167,10 +167,10 @@ TEST(SurfaceMesh, PatchesEndAtTheirEdges) {
             EXPECT_NEAR(patch.calcDomainMargin(patch.findSurfacePoint(mesh.points[i])), 0, 1e-9);
         double area = 0;
         const ParameterDomain domain = patch.getDomain();
-        const Vec2 width = domain.max - domain.min;
+        const Vector2 width = domain.max - domain.min;
         for (int i = 0; i < 100; ++i)
             for (int j = 0; j < 100; ++j) {
-                const Vec2 uv = domain.min + Vec2(0.01 * i + 0.005, 0.01 * j + 0.005).cwiseProduct(width);
+                const Vector2 uv = domain.min + Vector2(0.01 * i + 0.005, 0.01 * j + 0.005).cwiseProduct(width);
                 const ParametricValue s = patch.calcParametric(uv, 0);
                 area += 1e-4 * width[0] * width[1] * s.xu.cross(s.xv).norm();
             }
@@ -186,24 +186,24 @@ TEST(SurfaceMesh, SurfacesAwayFromTheOriginAreFound) {
     });
     const double area = 4 * kPi * 0.25;
     EXPECT_NEAR(calcArea(calcSurfaceMesh(spheres, 1)) / area, 1, 0.02);
-    EXPECT_NEAR(calcArea(calcSurfaceMesh(spheres, 1, {Vec3(9.4, 0.2, 0)})) / area, 2, 0.04);
+    EXPECT_NEAR(calcArea(calcSurfaceMesh(spheres, 1, {Vector3(9.4, 0.2, 0)})) / area, 2, 0.04);
 }
 
 /** Patches in places of a body's frame far from its origin, where only their continuations are near it. */
 TEST(SurfaceMesh, PatchesAwayFromTheOriginAreFound) {
-    for (const Vec2& corner : {Vec2(10, 12), Vec2(-40, 0.5), Vec2(0.2, -7)}) {
+    for (const Vector2& corner : {Vector2(10, 12), Vector2(-40, 0.5), Vector2(0.2, -7)}) {
         const int n = 7;
         Eigen::MatrixXd heights(n, n);
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < n; ++j) heights(i, j) = 3 + calcBumps(-1 + 2.0 * i / (n - 1), -1 + 2.0 * j / (n - 1));
-        const BSplinePatch patch = BSplinePatch::interpolateHeights({corner, corner + Vec2::Constant(2)}, heights);
+        const BSplinePatch patch = BSplinePatch::interpolateHeights({corner, corner + Vector2::Constant(2)}, heights);
         const SurfaceMesh mesh = calcSurfaceMesh(patch, 1);
         EXPECT_NEAR(calcArea(mesh) / calcArea(calcSurfaceMesh(makeBumpPatch(n), 1)), 1, 0.01) << corner.transpose();
     }
 }
 
 TEST(SurfaceMesh, FacetsAreWiderWhereThereWouldBeTooMany) {
-    const SurfaceMesh disc = calcSurfaceMesh(ParametricEllipsoid(Vec3(1, 1, 0.05)), 0.1);
+    const SurfaceMesh disc = calcSurfaceMesh(ParametricEllipsoid(Vector3(1, 1, 0.05)), 0.1);
     EXPECT_LT(disc.faces.size(), 25000u);
     EXPECT_TRUE(findRim(disc).empty());
     EXPECT_NEAR(calcArea(disc) / (2 * kPi), 1, 0.05);

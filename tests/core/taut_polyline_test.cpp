@@ -19,7 +19,7 @@ using testing::AskedSceneMaker;
 using testing::TautString;
 
 /** Beyond the tangent lines from both ends, a string over a sphere lies on the great circle. */
-double calcLengthOverSphere(double radius, const Vec3& A, const Vec3& B) {
+double calcLengthOverSphere(double radius, const Vector3& A, const Vector3& B) {
     const double angle = std::acos(A.normalized().dot(B.normalized()));
     const double arc = angle - std::acos(radius / A.norm()) - std::acos(radius / B.norm());
     if (arc < 0) return (B - A).norm();
@@ -30,7 +30,8 @@ TEST(TautPolyline, FallsOverASphereOntoTheGreatCircle) {
     testing::Random random(1);
     const Sphere sphere(1);
     for (int i = 0; i < 40; ++i) {
-        const Vec3 A = random.uniform(1.05, 4) * random.unitVector(), B = random.uniform(1.05, 4) * random.unitVector();
+        const Vector3 A = random.uniform(1.05, 4) * random.unitVector(),
+                      B = random.uniform(1.05, 4) * random.unitVector();
         const TautString string =
             testing::findTautString(sphere, testing::makeCourseOver(A, B, random.unitVector(), 1.5));
         ASSERT_TRUE(string.isSmooth()) << i;
@@ -42,16 +43,17 @@ TEST(TautPolyline, AgreesWithTheHelixAboutACylinder) {
     testing::Random random(2);
     const Cylinder cylinder(0.5);
     for (int i = 0; i < 20; ++i) {
-        const Vec3 A =
+        const Vector3 A =
             testing::makeOnCylinder(random.uniform(0.55, 3), random.uniform(-kPi, kPi), random.uniform(-1, 1));
-        const Vec3 B =
+        const Vector3 B =
             testing::makeOnCylinder(random.uniform(0.55, 3), random.uniform(-kPi, kPi), random.uniform(-1, 1));
         for (const auto& way : testing::calcBothWays(0.5, A, B)) {
             const TautString string =
                 testing::findTautString(cylinder, testing::makeCourseAboutAxis(A, B, way.turning, 1));
             ASSERT_TRUE(string.isSmooth()) << i;
             EXPECT_NEAR(string.length, way.length, 1e-9) << i;
-            const Vec2 direction = string.middle.head<2>().normalized(), expected = way.middle.head<2>().normalized();
+            const Vector2 direction = string.middle.head<2>().normalized(),
+                          expected = way.middle.head<2>().normalized();
             EXPECT_LT((direction - expected).norm(), way.isTouching ? 1e-8 : 0.03) << i;  // straight ones are sampled
             EXPECT_NEAR(testing::calcTurning(string.nodes), way.turning, 1e-9);
         }
@@ -60,13 +62,13 @@ TEST(TautPolyline, AgreesWithTheHelixAboutACylinder) {
 
 // The rows of the inputs that went wrong: by hand.
 TEST(StringAboutAxis, WrapsOnTheSideAlsoWhereTheStraightLineIsClearOnTheOther) {
-    const auto first = testing::findStringOnSide(1, Vec3(1, 2, 0), Vec3(-4, 0, 0), Vec3::UnitX());
+    const auto first = testing::findStringOnSide(1, Vector3(1, 2, 0), Vector3(-4, 0, 0), Vector3::UnitX());
     ASSERT_TRUE(first);
     EXPECT_NEAR(first->length, 7.69645993, 5e-9);
-    const auto second = testing::findStringOnSide(1, Vec3(-1, 3, 0), Vec3(-3, -1, 0), Vec3::UnitX());
+    const auto second = testing::findStringOnSide(1, Vector3(-1, 3, 0), Vector3(-3, -1, 0), Vector3::UnitX());
     ASSERT_TRUE(second);
     EXPECT_NEAR(second->length, 8.21429744, 5e-9);
-    const auto clear = testing::findStringOnSide(1, Vec3(-3, 1.5, 0), Vec3(3, 1.5, 0), Vec3::UnitY());
+    const auto clear = testing::findStringOnSide(1, Vector3(-3, 1.5, 0), Vector3(3, 1.5, 0), Vector3::UnitY());
     ASSERT_TRUE(clear);
     EXPECT_DOUBLE_EQ(clear->length, 6);
 }
@@ -74,9 +76,9 @@ TEST(StringAboutAxis, WrapsOnTheSideAlsoWhereTheStraightLineIsClearOnTheOther) {
 // Two spheres that overlap: the string lies in the groove, where one arc on each is not the answer.
 TEST(TautPolyline, FallsIntoTheGrooveBetweenTwoSpheres) {
     const Sphere sphere(0.025);
-    const Vec3 A(0.02, 0.2, 0.001), B(-0.1, -0.2, -0.001);
-    testing::TautPolyline string({{&sphere, Pose(Vec3(0, 0, 0.018))}, {&sphere, Pose(Vec3(0, 0, -0.018))}},
-                                 {A, Vec3(0.05, 0, 0), B}, 400);
+    const Vector3 A(0.02, 0.2, 0.001), B(-0.1, -0.2, -0.001);
+    testing::TautPolyline string({{&sphere, Pose(Vector3(0, 0, 0.018))}, {&sphere, Pose(Vector3(0, 0, -0.018))}},
+                                 {A, Vector3(0.05, 0, 0), B}, 400);
     ASSERT_TRUE(string.relax(1e-7, 20000));
     EXPECT_NEAR(string.calcLength(), 0.432346, 2e-6);
 }

@@ -82,7 +82,7 @@ TEST(WalkedPaths, MostlySaySoByARuleThatCostsNothing) {
 /** One obstacle at the origin between two points in the plane z = 0. */
 PathScene makeScene(std::shared_ptr<const Surface> surface, const StartHint& hint, double yA, double yB) {
     PathScene scene;
-    scene.point(Vec3(-2, yA, 0)).obstacle(std::move(surface), Pose()).point(Vec3(2, yB, 0.01));
+    scene.point(Vector3(-2, yA, 0)).obstacle(std::move(surface), Pose()).point(Vector3(2, yB, 0.01));
     scene.problem.setHint(1, hint);
     return scene;
 }
@@ -111,12 +111,12 @@ TEST_P(PathsThatAreCarriedAcross, SayThatAColdOneWouldPassOnTheOtherSide) {
 
 INSTANTIATE_TEST_SUITE_P(Over, PathsThatAreCarriedAcross,
                          ::testing::Values(std::make_shared<Cylinder>(0.5),
-                                           std::make_shared<Ellipsoid>(Vec3(0.4, 0.5, 1.0))));
+                                           std::make_shared<Ellipsoid>(Vector3(0.4, 0.5, 1.0))));
 
 // What is asked for does not depend on history, however far round it leads.
 TEST(WalkedPaths, OnTheSideAskedForAreWhereAColdOneIs) {
-    for (const StartHint& hint :
-         {StartHint(PassOnSide{Vec3(0, 1, 0)}), StartHint(PassNear{Vec3(0, 0.5, 0)}), StartHint(WindAround{-0.6})}) {
+    for (const StartHint& hint : {StartHint(PassOnSide{Vector3(0, 1, 0)}), StartHint(PassNear{Vector3(0, 0.5, 0)}),
+                                  StartHint(WindAround{-0.6})}) {
         PathSolution path;
         PathSolver solver;
         for (double y = 0.3; y > -0.45; y -= 0.05) {

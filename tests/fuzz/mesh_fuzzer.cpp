@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (data[0] % 5 < 4)
             requireMesh(models::readMeshContent(bytes, kNames[data[0] % 5]));
         else
-            decodeSolid(bytes, "fuzzed.solid").calcImplicit(Vec3(0.1, 0.2, 0.3));
+            decodeSolid(bytes, "fuzzed.solid").calcImplicit(Vector3(0.1, 0.2, 0.3));
     } catch (const models::ModelError&) {
         // Refused, which is what most of this deserves. Anything else that is thrown ends the fuzzer.
     } catch (const InvalidInput&) {

@@ -113,7 +113,7 @@ TEST(ClearanceProbe, IsSmoothThroughTouchdown) {
 TEST(ClearanceProbe, AnUnchangedPoseCostsNothing) {
     SimTK::MultibodySystem system;
     SimTK::SimbodyMatterSubsystem matter(system);
-    CableSubsystem cables(system);
+    CablePathSubsystem cables(system);
     const SimTK::MobilizedBody::Slider slider(matter.Ground(), SimTK::Transform(), SimTK::Body::Massless(),
                                               SimTK::Transform());
     Cable cable(cables, matter.Ground(), SimTK::Vec3(-2, 0, 0), slider, SimTK::Vec3(2, 0, 0));

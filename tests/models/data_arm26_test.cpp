@@ -121,7 +121,7 @@ TEST(DataArm26, ReadsWrapObjects) {
     const WrapObject* ellipsoid = findWrapObject(arm, "BIClonghh");
     ASSERT_NE(ellipsoid, nullptr);
     EXPECT_EQ(ellipsoid->quadrant, Quadrant::MinusY);
-    EXPECT_EQ(std::get<EllipsoidShape>(ellipsoid->shape).semiAxes, Vec3(0.025, 0.02, 0.02));
+    EXPECT_EQ(std::get<EllipsoidShape>(ellipsoid->shape).semiAxes, Vector3(0.025, 0.02, 0.02));
     EXPECT_EQ(findMuscle(arm, "BIClong")->path.wraps.at(0).range, (std::array<int, 2>{2, 3}));
 }
 
@@ -199,7 +199,8 @@ struct Triceps {
         SimTK::Vec3 P_G, Q_G;
         EXPECT_TRUE(getCable().getContactPoints(state, cylinder, P_G, Q_G));
         const Pose& X_GE = getCable().getPathPose(state).X_GE[static_cast<std::size_t>(cylinder)];
-        return {X_GE.shiftBack(Vec3(P_G[0], P_G[1], P_G[2])).z(), X_GE.shiftBack(Vec3(Q_G[0], Q_G[1], Q_G[2])).z()};
+        return {X_GE.shiftBack(Vector3(P_G[0], P_G[1], P_G[2])).z(),
+                X_GE.shiftBack(Vector3(Q_G[0], Q_G[1], Q_G[2])).z()};
     }
 
     ModelSystem model;

@@ -26,13 +26,13 @@ constexpr const char* kBones[] = {"arm_r_humerus", "humerus_rv", "r_pelvis", "sa
 /** The faceted mesh itself: heights are distances, feet the nearest points. */
 ImplicitFunctionSurface makeRawSurface(const RepairedMesh& repaired, double size) {
     const auto distance = std::make_shared<MeshDistance>(repaired.mesh);
-    const auto calcGradient = [distance](const Vec3& p) -> Vec3 {
+    const auto calcGradient = [distance](const Vector3& p) -> Vector3 {
         const MeshDistance::Nearest nearest = distance->findNearest(p);
         const double side = distance->isInside(p) ? -1 : 1;
         if (nearest.distance > 0) return side / nearest.distance * (p - nearest.point);
         return calcDoubleArea(distance->getMesh(), nearest.triangle).normalized();
     };
-    return {"raw mesh", size, [distance](const Vec3& p) { return distance->calcSignedDistance(p); }, calcGradient};
+    return {"raw mesh", size, [distance](const Vector3& p) { return distance->calcSignedDistance(p); }, calcGradient};
 }
 
 /** One bone, strings over it, and what came of them. */
@@ -50,9 +50,9 @@ public:
     /** @param compares   every third string that touches with one over the mesh itself, which takes longer */
     void solveRandom(Random& random, bool compares) {
         const Eigen::AlignedBox3d box = calcBox(m_fit.repaired.mesh);
-        std::array<Vec3, 2> ends;
-        for (Vec3& end : ends) do {
-                end = box.center() + (0.5 * box.sizes() + Vec3::Constant(0.03)).cwiseProduct(random.vector(1));
+        std::array<Vector3, 2> ends;
+        for (Vector3& end : ends) do {
+                end = box.center() + (0.5 * box.sizes() + Vector3::Constant(0.03)).cwiseProduct(random.vector(1));
             } while (m_solid->calcHeight(end) < 0.003);
         PathPose pose;
         pose.X_GE = {Pose(ends[0]), Pose(), Pose(ends[1])};
@@ -60,8 +60,9 @@ public:
         ++m_count;
         if (path.status == PathStatus::Solved) {
             ++m_solved;
-            const std::vector<Vec3> course = sample(path, ends);
-            for (const Vec3& p : course) EXPECT_GT(m_solid->calcHeight(p), -1e-9) << m_name << ", string " << m_count;
+            const std::vector<Vector3> course = sample(path, ends);
+            for (const Vector3& p : course)
+                EXPECT_GT(m_solid->calcHeight(p), -1e-9) << m_name << ", string " << m_count;
             EXPECT_TRUE(verifyPath(m_problem, pose, path).isMinimum()) << m_name << ", string " << m_count;
             m_several += path.contacts[1].getNumArcs() > 1;
             if (path.contacts[1].isTouched && ++m_touched % 3 == 0 && compares) compareWithRawMesh(path, course);
@@ -87,15 +88,15 @@ public:
 
 private:
     /** Points from end to end, closer than a fiftieth of the bone's size. */
-    std::vector<Vec3> sample(const PathSolution& path, const std::array<Vec3, 2>& ends) const {
-        std::vector<Vec3> corners{ends[0]}, points, arc;
+    std::vector<Vector3> sample(const PathSolution& path, const std::array<Vector3, 2>& ends) const {
+        std::vector<Vector3> corners{ends[0]}, points, arc;
         for (int i = 0; i < path.contacts[1].getNumArcs(); ++i) {
             sampleGeodesic(*m_solid, path.contacts[1].getArc(i).start, {}, 200, arc);
             corners.insert(corners.end(), arc.begin(), arc.end());
         }
         corners.push_back(ends[1]);
         for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-            const Vec3 side = corners[i + 1] - corners[i];
+            const Vector3 side = corners[i + 1] - corners[i];
             const int pieces = 1 + static_cast<int>(50 * side.norm() / m_solid->getSize());
             for (int k = 0; k < pieces; ++k) points.push_back(corners[i] + side * k / pieces);
         }
@@ -104,7 +105,7 @@ private:
     }
 
     /** A polyline that falls taut over the mesh itself from the course of the path. */
-    void compareWithRawMesh(const PathSolution& path, const std::vector<Vec3>& course) {
+    void compareWithRawMesh(const PathSolution& path, const std::vector<Vector3>& course) {
         const ImplicitFunctionSurface raw = makeRawSurface(m_fit.repaired, m_solid->getSize());
         TautPolyline polyline({{&raw, Pose()}}, course, 60);
         if (!polyline.relax(1e-5, 2000)) return;

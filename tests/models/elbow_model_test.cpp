@@ -25,7 +25,7 @@ SimTK::Vec3 locateInWrap(const PathPoint& point, const WrapObject& wrap, const B
 double calcDepth(const WrapObject& wrap, const SimTK::Vec3& point_W) {
     if (const auto* cylinder = std::get_if<CylinderShape>(&wrap.shape))
         return std::hypot(point_W[0], point_W[1]) / cylinder->radius;
-    const Vec3 axes = std::get<EllipsoidShape>(wrap.shape).semiAxes;
+    const Vector3 axes = std::get<EllipsoidShape>(wrap.shape).semiAxes;
     return std::hypot(point_W[0] / axes[0], point_W[1] / axes[1], point_W[2] / axes[2]);
 }
 

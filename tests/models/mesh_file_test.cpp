@@ -22,7 +22,7 @@ constexpr unsigned kSeed = 20261127;
 /** Coordinates that floats have exactly, so that every kind of file gives them back. */
 TriangleMesh makeMesh() {
     TriangleMesh mesh = testing::makeBallMesh(1);
-    for (Vec3& point : mesh.points) point = point.cast<float>().cast<double>();
+    for (Vector3& point : mesh.points) point = point.cast<float>().cast<double>();
     return mesh;
 }
 
@@ -50,7 +50,7 @@ std::string writeObj(const TriangleMesh& mesh, bool countsBack) {
     std::ostringstream text;
     text.precision(17);
     text << "# a ball\n";
-    for (const Vec3& p : mesh.points) text << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << "\r\nvn 0 0 1\n";
+    for (const Vector3& p : mesh.points) text << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << "\r\nvn 0 0 1\n";
     const int back = static_cast<int>(mesh.points.size()) + 1;
     for (const auto& triangle : mesh.triangles) {
         text << 'f';
@@ -71,7 +71,7 @@ std::string writeStl(const TriangleMesh& mesh, bool isBinary) {
         text << "facet normal 0 0 0\nouter loop\n";
         bytes.append(12, '\0');
         for (int k = 0; k < 3; ++k) {
-            const Vec3& p = mesh.getCorner(i, k);
+            const Vector3& p = mesh.getCorner(i, k);
             text << "vertex " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
             for (const double x : p) append(bytes, static_cast<float>(x));
         }
@@ -90,7 +90,7 @@ std::string writePly(const TriangleMesh& mesh, const std::string& format) {
          << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
     std::string bytes = text.str();
     const bool isBig = format == "binary_big_endian";
-    for (const Vec3& p : mesh.points) {
+    for (const Vector3& p : mesh.points) {
         text << p.x() << " 255 " << p.y() << ' ' << p.z() << '\n';
         append(bytes, static_cast<float>(p.x()), isBig);
         bytes += '\xff';
@@ -112,7 +112,7 @@ std::string writeVtp(const TriangleMesh& mesh, VtpCoding coding, bool isBigEndia
     std::ostringstream ascii[3];
     std::string binary[3], appended;
     ascii[0].precision(17);
-    for (const Vec3& p : mesh.points)
+    for (const Vector3& p : mesh.points)
         for (const double x : p) ascii[0] << x << ' ', append(binary[0], static_cast<float>(x), isBigEndian);
     std::int64_t end = 0;
     for (const auto& triangle : mesh.triangles) {
@@ -266,7 +266,7 @@ TEST(DataMeshFile, AllBonesOfTheReferenceDataAreRead) {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(shared / "data/opensim/geometry")) {
         const TriangleMesh mesh = readMeshFile(entry.path());
-        const Vec3 sides = calcBox(mesh).sizes();
+        const Vector3 sides = calcBox(mesh).sizes();
         EXPECT_GT(mesh.triangles.size(), 200u) << entry.path();
         EXPECT_GT(sides.minCoeff(), 0.03) << entry.path();
         EXPECT_LT(sides.maxCoeff(), 0.6) << entry.path();

@@ -16,7 +16,7 @@ ModelDescription readBodyWith(const std::string& inside, const std::string& vers
                         "meshes.osim");
 }
 
-void expectNear(const Vec3& found, const Vec3& expected) {
+void expectNear(const Vector3& found, const Vector3& expected) {
     EXPECT_LT((found - expected).norm(), 1e-12) << found.transpose() << " is not " << expected.transpose();
 }
 
@@ -29,7 +29,7 @@ TEST(MeshReading, MeshOfABodyHasItsScale) {
     EXPECT_EQ(model.meshes[0].body, "bone");
     EXPECT_EQ(model.meshes[0].line, 4);
     expectNear(model.meshes[0].scale, {1, 2, 3});
-    expectNear(model.meshes[0].X_BM.p, Vec3::Zero());
+    expectNear(model.meshes[0].X_BM.p, Vector3::Zero());
     EXPECT_TRUE(model.notes.empty());
 }
 
@@ -41,7 +41,7 @@ TEST(MeshReading, MeshOfAnOffsetFrameStandsInIt) {
         "<mesh_file>talus.obj</mesh_file></Mesh></attached_geometry></PhysicalOffsetFrame></components>");
     ASSERT_EQ(model.meshes.size(), 1u);
     EXPECT_EQ(model.meshes[0].body, "bone");
-    expectNear(model.meshes[0].X_BM * Vec3(1, 0, 0), {1, 1, 0});
+    expectNear(model.meshes[0].X_BM * Vector3(1, 0, 0), {1, 1, 0});
 }
 
 TEST(MeshReading, MeshMayNameAnotherFrame) {

@@ -70,9 +70,9 @@ TEST(OsimReader, OldLayout) {
     EXPECT_EQ(joint.type, JointType::Custom);
     EXPECT_EQ(joint.parentBody, "ground");
     EXPECT_EQ(joint.childBody, "one::a");
-    EXPECT_EQ(joint.parentOffset.p, Vec3(1, 2, 3));
+    EXPECT_EQ(joint.parentOffset.p, Vector3(1, 2, 3));
     EXPECT_DOUBLE_EQ(joint.parentOffset.R(0, 0), std::cos(0.5));
-    EXPECT_EQ(joint.childOffset.p, Vec3(0, 0.1, 0));
+    EXPECT_EQ(joint.childOffset.p, Vector3(0, 0.1, 0));
     ASSERT_EQ(joint.coordinates.size(), 1u);
     EXPECT_EQ(joint.coordinates[0].defaultValue, 0.25);
     EXPECT_TRUE(joint.coordinates[0].locked);
@@ -90,7 +90,7 @@ TEST(OsimReader, ReversedOldJointSwapsItsFrames) {
     const Joint joint = readOsimText(text, "old.osim").joints.at(0);
     EXPECT_EQ(joint.parentBody, "one::a");
     EXPECT_EQ(joint.childBody, "ground");
-    EXPECT_EQ(joint.childOffset.p, Vec3(1, 2, 3));
+    EXPECT_EQ(joint.childOffset.p, Vector3(1, 2, 3));
 }
 
 TEST(OsimReader, FrameNamesAreLookedUpInTheJointFirst) {
@@ -162,10 +162,10 @@ TEST(OsimReader, WrapObjectsOfAllKinds) {
     const ModelDescription model = readNew(makePinModel(muscle, wraps));
     ASSERT_EQ(model.wrapObjects.size(), 4u);
     EXPECT_EQ(model.wrapObjects[0].quadrant, Quadrant::MinusY);
-    EXPECT_EQ(model.wrapObjects[0].X_BW.p, Vec3(1, 2, 3));
+    EXPECT_EQ(model.wrapObjects[0].X_BW.p, Vector3(1, 2, 3));
     EXPECT_EQ(model.wrapObjects[0].body, "one");
     EXPECT_FALSE(model.wrapObjects[1].active);
-    EXPECT_EQ(std::get<EllipsoidShape>(model.wrapObjects[2].shape).semiAxes, Vec3(1, 2, 3));
+    EXPECT_EQ(std::get<EllipsoidShape>(model.wrapObjects[2].shape).semiAxes, Vector3(1, 2, 3));
     EXPECT_EQ(std::get<TorusShape>(model.wrapObjects[3].shape).ringRadius, 0.4);
     const auto& path = model.muscles.at(0).path;
     ASSERT_EQ(path.wraps.size(), 2u);
@@ -190,7 +190,7 @@ TEST(OsimReader, WrapObjectsOfTautlinesOwn) {
     EXPECT_EQ(std::get<ParaboloidShape>(paraboloid.shape).b, 6);
     EXPECT_EQ(paraboloid.form, SurfaceForm::Parametric);
     EXPECT_EQ(paraboloid.quadrant, Quadrant::MinusZ);
-    EXPECT_EQ(paraboloid.X_BW.p, Vec3(1, 2, 3));
+    EXPECT_EQ(paraboloid.X_BW.p, Vector3(1, 2, 3));
     EXPECT_EQ(std::get<EllipticTorusShape>(torus.shape).ringRadius, 0.7);
     EXPECT_EQ(std::get<EllipticTorusShape>(torus.shape).radialSemiAxis, 0.2);
     EXPECT_EQ(std::get<EllipticTorusShape>(torus.shape).axialSemiAxis, 0.1);
@@ -220,11 +220,11 @@ TEST(OsimReader, PathSpringsWithHintsAndStarts) {
     EXPECT_EQ(read.dissipation, 0.1);
     EXPECT_TRUE(read.path.areWrapsInOrder);
     ASSERT_EQ(read.path.wraps.size(), 2u);
-    EXPECT_EQ(read.path.wraps[0].hint, Vec3(1, 2, 3));
+    EXPECT_EQ(read.path.wraps[0].hint, Vector3(1, 2, 3));
     EXPECT_FALSE(read.path.wraps[0].start.has_value());
     ASSERT_TRUE(read.path.wraps[1].start.has_value());
-    EXPECT_EQ(read.path.wraps[1].start->point, Vec3(0, 0, 0.2));
-    EXPECT_EQ(read.path.wraps[1].start->direction, Vec3(0, 1, 0));
+    EXPECT_EQ(read.path.wraps[1].start->point, Vector3(0, 0, 0.2));
+    EXPECT_EQ(read.path.wraps[1].start->direction, Vector3(0, 1, 0));
     EXPECT_EQ(read.path.wraps[1].start->length, 0.3);
 }
 
@@ -257,7 +257,7 @@ TEST(OsimReader, ANumberMayBeInterruptedByAComment) {
         "<OpenSimDocument Version=\"40000\"><Model name=\"m\"><gravity>0 -1 <!-- z --> 2</gravity>"
         "</Model></OpenSimDocument>",
         "c.osim");
-    EXPECT_EQ(model.gravity, Vec3(0, -1, 2));
+    EXPECT_EQ(model.gravity, Vector3(0, -1, 2));
 }
 
 TEST(OsimReader, PrescribedMotionOnlyIfEnforced) {

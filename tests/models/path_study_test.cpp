@@ -282,7 +282,7 @@ TEST(PathStudy, ALoopOfBodiesIsClosedAndFollowedByEffectiveArms) {
 
 TEST(PathStudy, ALoopThatCannotBeClosedIsAFaultOfThePoseAndStillAnswered) {
     ModelDescription open = readParallelogram();
-    std::get<PointConstraint>(open.constraints.at(0)).location1 = Vec3(9, 0, 0);
+    std::get<PointConstraint>(open.constraints.at(0)).location1 = Vector3(9, 0, 0);
     PathStudy study(open);
     const PoseAnswer answer = study.solve({});
     EXPECT_NE(answer.constraintFault.find("cannot be met"), std::string::npos) << answer.constraintFault;

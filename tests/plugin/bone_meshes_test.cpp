@@ -47,7 +47,7 @@ TEST(BoneMeshes, AreLookedForAsOpenSimDoes) {
 models::ModelDescription makeModel(const fs::path& folder, std::initializer_list<const char*> files) {
     models::ModelDescription model;
     model.fileName = (folder / "m.osim").string();
-    for (const char* file : files) model.meshes.push_back({file, models::kGroundName, {}, Vec3(1, 1, 2), 0});
+    for (const char* file : files) model.meshes.push_back({file, models::kGroundName, {}, Vector3(1, 1, 2), 0});
     return model;
 }
 
@@ -77,7 +77,7 @@ TEST(BoneMeshes, OfAllThreeKindsAreReadAndScaled) {
     EXPECT_EQ(bones.meshes[0].triangles.size(), 2u);
     EXPECT_EQ(bones.meshes[1].triangles.size(), 1u);
     for (const ReportPage::Mesh& mesh : bones.meshes)
-        for (const Vec3& point : mesh.points_M) EXPECT_EQ(point.z(), 2);
+        for (const Vector3& point : mesh.points_M) EXPECT_EQ(point.z(), 2);
 }
 
 TEST(BoneMeshes, MissingAndBrokenOnesAreNamedOnce) {
@@ -121,7 +121,7 @@ TEST(MeshThinning, KeepsABallClosedAndItsPointsWithinACell) {
     const ReportPage::Mesh thinned = clusterPoints(ball, cell);
     EXPECT_LT(thinned.points_M.size(), ball.points_M.size() / 2);
     EXPECT_NEAR(calcVolume(thinned), calcVolume(ball), 0.1 * calcVolume(ball));
-    for (const Vec3& point : thinned.points_M) EXPECT_NEAR(point.norm(), 1, cell * std::sqrt(3.0));
+    for (const Vector3& point : thinned.points_M) EXPECT_NEAR(point.norm(), 1, cell * std::sqrt(3.0));
     // Each edge is met once in either direction.
     std::multiset<std::pair<int, int>> edges;
     for (const auto& corners : thinned.triangles)
@@ -153,7 +153,7 @@ TEST(DataBoneMeshes, OfArm26StandWhereTheirMusclesAre) {
     Eigen::AlignedBox3d humerus;
     for (const ReportPage::Mesh& mesh : bones.meshes)
         if (mesh.body == bodies.getBodyIndex("r_humerus"))
-            for (const Vec3& point : mesh.points_M) humerus.extend(point);
+            for (const Vector3& point : mesh.points_M) humerus.extend(point);
     EXPECT_NEAR(humerus.min().y(), -0.31, 0.03);
     EXPECT_NEAR(humerus.max().y(), 0.02, 0.03);
     ASSERT_EQ(bones.notes.size(), 1u);  // the reference data have not all of them

@@ -13,7 +13,7 @@ std::filesystem::path writeBone() {
     std::ostringstream text;
     text.precision(9);
     const TriangleMesh mesh = makeBoneMesh();
-    for (const Vec3& p : mesh.points)
+    for (const Vector3& p : mesh.points)
         text << "v " << 1000 * p.x() << ' ' << 1000 * p.y() << ' ' << 1000 * p.z() << '\n';
     for (const auto& [a, b, c] : mesh.triangles) text << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
     return writeInput("bone.obj", text.str());
@@ -62,7 +62,8 @@ TEST(FitCommand, WritesASolidAndTheElementThatAModelNeeds) {
     const StorageTable paths = readStorage(folder / "paths.sto");
     const std::vector<double>& first = paths.rows.front();
     EXPECT_EQ(first[findColumn(paths, "/forceset/spring|contact.tautline_bone")], 1);
-    const double straight = Vec3(0.01, 0.13, 0.04).norm(), length = first[findColumn(paths, "/forceset/spring|length")];
+    const double straight = Vector3(0.01, 0.13, 0.04).norm(),
+                 length = first[findColumn(paths, "/forceset/spring|length")];
     EXPECT_GT(length, straight + 1e-4);
     EXPECT_LT(length, straight + 0.02);
 }

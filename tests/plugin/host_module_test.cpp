@@ -84,11 +84,11 @@ void append(std::string& text, const char* format, ...) {
 std::string simulateTwin() {
     Pendulum pendulum;
     Force::Gravity(pendulum.forces, pendulum.matter, -YAxis, 9.81);
-    tautline::CableSubsystem cables(pendulum.system);
+    tautline::CablePathSubsystem cables(pendulum.system);
     const MobilizedBody& ground = pendulum.matter.Ground();
     tautline::Cable front(cables, ground, Vec3(0.02, 0.25, 0), pendulum.bob, Vec3(0.02, 0.3, 0), "front");
     front.addObstacle(ground, SimTK::Transform(), std::make_shared<tautline::Cylinder>(0.04),
-                      tautline::PassOnSide{tautline::Vec3(1, 0, 0)}, "drum");
+                      tautline::PassOnSide{tautline::Vector3(1, 0, 0)}, "drum");
     const auto setSizes = [](auto parameters) {
         parameters.maxIsometricForce = 300;
         parameters.optimalFiberLength = 0.15;

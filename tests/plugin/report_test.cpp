@@ -124,13 +124,14 @@ TEST_F(Report, NamesCannotBreakThePage) {
 Pose getPose(const nlohmann::json& data, const std::vector<std::int16_t>& bodies, std::size_t body) {
     const std::int16_t* b = &bodies[7 * body];
     const double unit = data["unit"];
-    return {Eigen::Quaterniond(b[3], b[4], b[5], b[6]).normalized().toRotationMatrix(), unit * Vec3(b[0], b[1], b[2])};
+    return {Eigen::Quaterniond(b[3], b[4], b[5], b[6]).normalized().toRotationMatrix(),
+            unit * Vector3(b[0], b[1], b[2])};
 }
 
-std::vector<Vec3> toPoints(const std::vector<std::int16_t>& numbers, double unit) {
-    std::vector<Vec3> points;
+std::vector<Vector3> toPoints(const std::vector<std::int16_t>& numbers, double unit) {
+    std::vector<Vector3> points;
     for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
-        points.push_back(unit * Vec3(numbers[k], numbers[k + 1], numbers[k + 2]));
+        points.push_back(unit * Vector3(numbers[k], numbers[k + 1], numbers[k + 2]));
     return points;
 }
 
@@ -155,20 +156,20 @@ void checkScene(const nlohmann::json& data) {
             EXPECT_LT(best, 5e-4) << data["paths"][p] << (isLast ? " insertion" : " origin");
         }
     for (std::size_t i = 0; i < frames.size(); i += 10) {
-        std::vector<Vec3> corners_G;
+        std::vector<Vector3> corners_G;
         for (const std::size_t s : frames[i]["touched"]) {
             const auto& surface = data["surfaces"][s];
             Eigen::Matrix4d X;
             for (int k = 0; k < 16; ++k) X(k % 4, k / 4) = surface["pose"][static_cast<std::size_t>(k)];
             const Pose X_GB = getPose(data, bodies[i], surface["body"]);
-            for (const Vec3& point : toPoints(Report::decode<std::int16_t>(surface["points"]), surface["unit"]))
-                corners_G.push_back(X_GB * Vec3(X.topLeftCorner<3, 3>() * point + X.topRightCorner<3, 1>()));
+            for (const Vector3& point : toPoints(Report::decode<std::int16_t>(surface["points"]), surface["unit"]))
+                corners_G.push_back(X_GB * Vector3(X.topLeftCorner<3, 3>() * point + X.topRightCorner<3, 1>()));
         }
         for (std::size_t p = 0; p < data["paths"].size(); ++p) {
             const auto points = toPoints(Report::decode<std::int16_t>(frames[i]["paths"][p]), unit);
             for (const auto& arc : frames[i]["arcs"][p]) {
                 double nearest = kInfinity;
-                for (const Vec3& corner : corners_G)
+                for (const Vector3& corner : corners_G)
                     nearest = std::min(nearest, (corner - points[arc[0].get<std::size_t>()]).norm());
                 EXPECT_LT(nearest, 0.01) << data["paths"][p] << " in frame " << i;  // facets are a few mm wide
             }
@@ -216,7 +217,7 @@ TEST_F(Report, OfOnePoseTurnsTheForearmByItsAngle) {
     ASSERT_EQ(data["frames"].size(), 1u);
     const auto bodies = decode<std::int16_t>(data["frames"][0]["bodies"]);
     const Pose forearm = getPose(data, bodies, bodies.size() / 7 - 1), upper = getPose(data, bodies, 1);
-    const Eigen::AngleAxisd turn(Mat3(upper.R.transpose() * forearm.R));
+    const Eigen::AngleAxisd turn(Matrix3(upper.R.transpose() * forearm.R));
     EXPECT_NEAR(turn.angle(), kPi / 2, 2e-4);
 }
 

@@ -27,7 +27,7 @@ struct BareScene {
     SimTK::MultibodySystem system;
     SimTK::SimbodyMatterSubsystem matter{system};
     SimTK::GeneralForceSubsystem forces{system};
-    CableSubsystem cables{system};
+    CablePathSubsystem cables{system};
 };
 
 /** A cable of everything: a sphere on a pinned body, a via point on a free one, a cylinder on ground, an
@@ -48,7 +48,7 @@ struct MechanismScene : BareScene {
         cylinder = cable.addObstacle(ground, Transform(SimTK::Rotation(0.3, SimTK::YAxis), SimTK::Vec3(1, -0.25, 0)),
                                      std::make_shared<Cylinder>(0.4), SimTK::Vec3(0, 0.4, 0));
         ellipsoid = cable.addObstacle(ball, Transform(SimTK::Rotation(0.2, SimTK::XAxis), SimTK::Vec3(0)),
-                                      std::make_shared<Ellipsoid>(Vec3(0.5, 0.45, 0.6)), SimTK::Vec3(0, 0.45, 0));
+                                      std::make_shared<Ellipsoid>(Vector3(0.5, 0.45, 0.6)), SimTK::Vec3(0, 0.45, 0));
         system.realizeTopology();
     }
 

@@ -52,8 +52,8 @@ TEST(CableBuilding, StartsBySideWindingAndHole) {
     };
     const auto cylinder = std::make_shared<Cylinder>(0.5);
     const SimTK::Vec3 A(-2, 0.1, 0), B(2, 0.1, 0);
-    const Cable above = addCable(A, B, cylinder, PassOnSide{Vec3(0, 1, 0)});
-    const Cable below = addCable(A, B, cylinder, PassOnSide{Vec3(0, -1, 0)});
+    const Cable above = addCable(A, B, cylinder, PassOnSide{Vector3(0, 1, 0)});
+    const Cable below = addCable(A, B, cylinder, PassOnSide{Vector3(0, -1, 0)});
     const Cable wound = addCable(A, B, cylinder, WindAround{1.5});
     const auto torus = std::make_shared<Torus>(1, 0.3);
     const SimTK::Vec3 C(1.5, 0, -2), D(1.5, 0, 2);
@@ -74,7 +74,7 @@ TEST(CableBuilding, StartsBySideWindingAndHole) {
     EXPECT_NEAR(threaded.getLength(state),
                 2 * std::sqrt(c * c - 0.09) + 0.3 * (2 * (SimTK::Pi - std::atan(4)) - 2 * std::acos(0.3 / c)), 1e-10);
     EXPECT_MESSAGE(addCable(A, B, cylinder, ThreadHole{1}), "has no hole to thread");
-    EXPECT_MESSAGE(addCable(A, B, cylinder, PassOnSide{Vec3::Zero()}), "needs a finite direction that is not zero");
+    EXPECT_MESSAGE(addCable(A, B, cylinder, PassOnSide{Vector3::Zero()}), "needs a finite direction that is not zero");
 }
 
 TEST(CableBuilding, RefusesABodyOfAnotherSystem) {

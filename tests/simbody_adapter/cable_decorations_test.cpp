@@ -55,7 +55,7 @@ Drawing draw(CableDecorations& decorations, const State& state) {
     return Drawing(geometry);
 }
 
-Drawing draw(const CableSubsystem& cables, const State& state, Real frameSize) {
+Drawing draw(const CablePathSubsystem& cables, const State& state, Real frameSize) {
     return draw(CableDecorations(cables).setContactFrameSize(frameSize), state);
 }
 
@@ -208,8 +208,8 @@ TEST(CableDecorationsTest, PicturesReachTheContact) {
         const Drawing drawing = draw(decorations, scene.state);
         ASSERT_TRUE(scene.cable.isTouched(scene.state, scene.obstacle));
         ASSERT_EQ(drawing.meshes.size(), 1u);
-        const Geodesic& arc = scene.cable.getSolution(scene.state).contacts[scene.obstacle].geodesic;
-        for (const Vec3& p : {arc.P.x, arc.Q.x}) {
+        const ShotGeodesic& arc = scene.cable.getSolution(scene.state).contacts[scene.obstacle].geodesic;
+        for (const Vector3& p : {arc.P.x, arc.Q.x}) {
             EXPECT_GT(p.norm(), 10 * one.surface->getSize());
             EXPECT_LT(calcDistance(drawing.meshes[0], toSimTK(p)), 0.1 * one.surface->getSize());
         }
@@ -238,7 +238,7 @@ TEST(CableDecorationsTest, ASharedSurfaceIsDrawnForAllOfItsObstacles) {
     ASSERT_EQ(drawing.meshes.size(), 2u);
     for (const Cable& cable : cables) {
         ASSERT_TRUE(cable.isTouched(state, CableElementIndex(1)));
-        const Geodesic& arc = cable.getSolution(state).contacts[1].geodesic;
+        const ShotGeodesic& arc = cable.getSolution(state).contacts[1].geodesic;
         for (const SimTK::PolygonalMesh& mesh : drawing.meshes)
             EXPECT_LT(calcDistance(mesh, toSimTK(arc.P.x)), 0.1 * surface->getSize());
     }

@@ -108,7 +108,7 @@ TEST(CableKinematics, ForcesAndMomentsBalance) {
 
 /** A cable between two free bodies over one or two more, and with everything in motion. */
 struct CableOfFreeBodies : BareScene {
-    CableOfFreeBodies(const std::vector<std::shared_ptr<const Surface>>& surfaces, const Vec3& hint_S,
+    CableOfFreeBodies(const std::vector<std::shared_ptr<const Surface>>& surfaces, const Vector3& hint_S,
                       const PathSolverOptions& options = {}) {
         for (std::size_t i = 0; i < surfaces.size() + 2; ++i)
             bodies.push_back(MobilizedBody::Free(matter.Ground(), Transform(), makeBody(), Transform()));
@@ -159,7 +159,8 @@ void expectBalancedWithItsOwnRate(const CableOfFreeBodies& scene, const State& s
 TEST(CableKinematics, APathThatHasNotConvergedBalancesAndHasItsOwnRateAndPower) {
     PathSolverOptions options;
     options.maxIterations = 1;
-    CableOfFreeBodies scene({std::make_shared<Cylinder>(1), std::make_shared<Torus>(1, 0.4)}, Vec3(0, 1, 0), options);
+    CableOfFreeBodies scene({std::make_shared<Cylinder>(1), std::make_shared<Torus>(1, 0.4)}, Vector3(0, 1, 0),
+                            options);
     expectBalancedWithItsOwnRate(scene,
                                  scene.makeState({SimTK::Vec3(-3, 0, 0), SimTK::Vec3(-1, 0, 0), SimTK::Vec3(2, -0.5, 0),
                                                   SimTK::Vec3(4, 0.1, 0.3)}),
@@ -167,7 +168,7 @@ TEST(CableKinematics, APathThatHasNotConvergedBalancesAndHasItsOwnRateAndPower) 
 }
 
 TEST(CableKinematics, APathWhoseEndIsInsideAnObstacleBalancesAndHasItsOwnRateAndPower) {
-    CableOfFreeBodies scene({std::make_shared<Sphere>(1)}, Vec3(0, 1, 0));
+    CableOfFreeBodies scene({std::make_shared<Sphere>(1)}, Vector3(0, 1, 0));
     expectBalancedWithItsOwnRate(scene,
                                  scene.makeState({SimTK::Vec3(-3, 0, 0), SimTK::Vec3(0), SimTK::Vec3(0.2, 0.4, 0.1)}),
                                  PathStatus::EndInside);
@@ -175,7 +176,7 @@ TEST(CableKinematics, APathWhoseEndIsInsideAnObstacleBalancesAndHasItsOwnRateAnd
 
 /** Lowered onto the near tube of a ring while it lies on the far one: one arc cannot describe it. */
 TEST(CableKinematics, APathThatIsNoMinimumBalancesAndHasItsOwnRateAndPower) {
-    CableOfFreeBodies scene({std::make_shared<Torus>(1, 0.2)}, Vec3(1, 0, 0.2));
+    CableOfFreeBodies scene({std::make_shared<Torus>(1, 0.2)}, Vector3(1, 0, 0.2));
     State state = scene.makeState({SimTK::Vec3(-3, 0, 1), SimTK::Vec3(0), SimTK::Vec3(2, 0, -0.6)});
     scene.cable.fixContacts(state);
     scene.pose(state, {SimTK::Vec3(-3, 0, 0.1), SimTK::Vec3(0), SimTK::Vec3(2, 0, -0.6)});
@@ -187,8 +188,8 @@ TEST(CableKinematics, APathThatHasLeftItsDomainBalancesAndHasItsOwnRateAndPower)
     for (int i = 0; i < 5; ++i)
         for (int j = 0; j < 5; ++j) heights(i, j) = -0.2 * (SimTK::square(i - 2) + SimTK::square(j - 2)) / 4;
     CableOfFreeBodies scene(
-        {std::make_shared<BSplinePatch>(BSplinePatch::interpolateHeights({Vec2(-1, -1), Vec2(1, 1)}, heights))},
-        Vec3(1.2, 0, -0.2));
+        {std::make_shared<BSplinePatch>(BSplinePatch::interpolateHeights({Vector2(-1, -1), Vector2(1, 1)}, heights))},
+        Vector3(1.2, 0, -0.2));
     expectBalancedWithItsOwnRate(
         scene, scene.makeState({SimTK::Vec3(0.7, -3, -1.3), SimTK::Vec3(0), SimTK::Vec3(1.25, 3, -1.3)}),
         PathStatus::LeftDomain);

@@ -241,7 +241,7 @@ TEST(CablePathRegression, FromRoughHintsOnlyTautlineGetsOverSpherePointAndCylind
         EXPECT_FALSE(theirs.saysConverged());
         TwinScene fine = rough;
         for (int e : {1, 3}) {
-            const Geodesic& arc = ours.cable.getSolution(ours.state).contacts[e].geodesic;
+            const ShotGeodesic& arc = ours.cable.getSolution(ours.state).contacts[e].geodesic;
             fine.elements[e - 1].hintP_S = toSimTK(arc.P.x);
             fine.elements[e - 1].hintQ_S = toSimTK(arc.Q.x);
         }

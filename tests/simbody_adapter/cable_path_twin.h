@@ -56,7 +56,7 @@ inline TwinElement makeEllipsoid(const SimTK::Vec3& radii, const Transform& X_GB
                                  const SimTK::Vec3& Q_S) {
     return {X_GB,
             Transform(SimTK::Vec3(0.01, 0.01, 0.02)),
-            std::make_shared<Ellipsoid>(Vec3(radii[0], radii[1], radii[2])),
+            std::make_shared<Ellipsoid>(Vector3(radii[0], radii[1], radii[2])),
             SimTK::ContactGeometry::Ellipsoid(radii),
             (P_S + Q_S) / 2,
             P_S,
@@ -158,7 +158,7 @@ struct TautlineTwin : TwinBodies {
         return bodies[element].getBodyTransform(state) * cable.getElementFrame(CableElementIndex(element));
     }
 
-    CableSubsystem cables{system};
+    CablePathSubsystem cables{system};
     Cable cable;
     State state;
 };
@@ -224,7 +224,7 @@ struct CableSpanTwin : TwinBodies {
         return answer;
     }
 
-    SimTK::CableSubsystem cables{system};
+    SimTK::CablePathSubsystem cables{system};
     SimTK::CableSpan cable;
     bool isSmooth = false;  ///< whether the last answer met the tolerance
 };

@@ -249,7 +249,7 @@ TEST(CableStages, BuildingInvalidatesTheTopology) {
     MobilizedBody ground = scene.matter.Ground();
     EXPECT_TRUE(build([&] { scene.cable.addViaPoint(ground, SimTK::Vec3(1)); }));
     EXPECT_TRUE(build([&] { scene.cable.addObstacle(ground, SimTK::Vec3(5), std::make_shared<Sphere>(0.1)); }));
-    EXPECT_TRUE(build([&] { scene.cable.setHint(scene.sphere, PassOnSide{Vec3(0, 1, 0)}); }));
+    EXPECT_TRUE(build([&] { scene.cable.setHint(scene.sphere, PassOnSide{Vector3(0, 1, 0)}); }));
     EXPECT_TRUE(build([&] { scene.cable.setOptions(PathSolverOptions()); }));
     EXPECT_TRUE(build([&] { scene.cable.setDisabledByDefault(true); }));
     EXPECT_TRUE(build([&] { Cable(scene.cables, ground, SimTK::Vec3(0), ground, SimTK::Vec3(1)); }));

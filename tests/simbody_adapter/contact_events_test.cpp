@@ -87,7 +87,7 @@ TEST(ContactEvents, OnTimeAtLooseAccuracyToo) {
 
 TEST(ContactEvents, TouchdownAndLiftOffOfEverySurfaceOnTime) {
     const std::shared_ptr<const Surface> surfaces[] = {std::make_shared<Sphere>(0.5),
-                                                       std::make_shared<Ellipsoid>(Vec3(0.7, 0.5, 0.6))};
+                                                       std::make_shared<Ellipsoid>(Vector3(0.7, 0.5, 0.6))};
     for (const auto& surface : surfaces) {
         SCOPED_TRACE(surface->getDescription());
         BobbingString scene(surface);
@@ -138,7 +138,7 @@ struct SectionCase {
 std::vector<SectionCase> makeSectionCases() {
     return {{std::make_shared<Cylinder>(0.5), 0.5, Transform()},
             {std::make_shared<Sphere>(0.5), 0.5, Transform()},
-            {std::make_shared<Ellipsoid>(Vec3(0.7, 0.5, 0.6)), 0.7, Transform()},
+            {std::make_shared<Ellipsoid>(Vector3(0.7, 0.5, 0.6)), 0.7, Transform()},
             // The ring stands across the string, which passes over the top of the tube.
             {std::make_shared<Torus>(1.5, 0.5), 0.5,
              Transform(SimTK::Rotation(SimTK::Pi / 2, SimTK::YAxis), SimTK::Vec3(0, -1.5, 0))}};

@@ -6,7 +6,7 @@
 #include "adapter_scenes.h"
 #include "support/random.h"
 #include "support/seeded_random.h"
-#include "tautline/surfaces/plane.h"
+#include "tautline/surfaces/half_space.h"
 #include "tautline/surfaces/polynomial_patch.h"
 #include "tautline/surfaces/surface_laws.h"
 
@@ -15,9 +15,9 @@ namespace {
 
 TEST(ContactGeometrySurfaceTest, IsPositiveOutsideAndAsCurvedAsItsTwin) {
     const ContactGeometrySurface wrapped(SimTK::ContactGeometry::Ellipsoid({1, 2, 3}));
-    const Ellipsoid twin(Vec3(1, 2, 3));
-    const SurfacePoint point = twin.findSurfacePoint(Vec3(1, 1, 1));
-    const Vec3 direction(1, -2, 0.5);
+    const Ellipsoid twin(Vector3(1, 2, 3));
+    const SurfacePoint point = twin.findSurfacePoint(Vector3(1, 1, 1));
+    const Vector3 direction(1, -2, 0.5);
     EXPECT_GT(wrapped.calcImplicit(2 * point.p).f, 0);
     EXPECT_LT(wrapped.calcImplicit(0.5 * point.p).f, 0);
     EXPECT_LT((wrapped.findSurfacePoint(point.p).p - point.p).norm(), 1e-14);
@@ -47,7 +47,7 @@ SimTK::ContactGeometry makeHeightMap() {
 std::shared_ptr<const Surface> makeHeightMapTwin() {
     Eigen::MatrixXd p = Eigen::MatrixXd::Zero(3, 3);
     p(0, 0) = 0.5, p(2, 0) = -0.4, p(0, 2) = -0.3;
-    return std::make_shared<PolynomialPatch>(PolynomialPatch::makeHeightPatch({Vec2(-1, -1), Vec2(1, 1)}, p));
+    return std::make_shared<PolynomialPatch>(PolynomialPatch::makeHeightPatch({Vector2(-1, -1), Vector2(1, 1)}, p));
 }
 
 /** A smooth geometry, the core's own surface of the same shape, where the string passes over it. */
@@ -66,7 +66,7 @@ std::vector<GeometryCase> makeGeometryCases() {
         {"Sphere", G::Sphere(0.5), 0, std::make_shared<Sphere>(0.5), V(-2, 0.1, 0.1), V(2, 0.2, -0.3), V(0, 0.5, 0)},
         {"Cylinder", G::Cylinder(0.5), 0, std::make_shared<Cylinder>(0.5), V(-2, 0.1, 0.1), V(2, 0.2, -0.3),
          V(0, 0.5, 0)},
-        {"Ellipsoid", G::Ellipsoid(V(0.5, 0.6, 0.7)), 0, std::make_shared<Ellipsoid>(Vec3(0.5, 0.6, 0.7)),
+        {"Ellipsoid", G::Ellipsoid(V(0.5, 0.6, 0.7)), 0, std::make_shared<Ellipsoid>(Vector3(0.5, 0.6, 0.7)),
          V(-2, 0.1, 0.1), V(2, 0.2, -0.3), V(0, 0.6, 0)},
         {"Torus", G::Torus(1, 0.3), 0, std::make_shared<Torus>(1, 0.3), V(0.9, 0.1, -2), V(1.1, -0.2, 2), V(0.7, 0, 0)},
         {"SmoothHeightMap", makeHeightMap(), 0, makeHeightMapTwin(), V(-0.9, 0.1, 0.3), V(0.8, -0.2, 0.35),
@@ -106,8 +106,8 @@ TEST(ContactGeometrySurfaceTest, EverySmoothKindObeysTheLaws) {
         std::vector<SurfaceLawSample> samples;
         for (int i = 0; i < 20; ++i) {
             SurfaceLawSample sample{random.vector(0.5), random.vector(1), 0.3};
-            if (std::string(c.name) == "Torus") sample.p_S = Vec3(0.9, 0.1, 0.1) + 0.3 * sample.p_S;
-            Vec3 N;
+            if (std::string(c.name) == "Torus") sample.p_S = Vector3(0.9, 0.1, 0.1) + 0.3 * sample.p_S;
+            Vector3 N;
             surface.calcHeightAndNormal(surface.findSurfacePoint(sample.p_S).p, N);
             if (sample.direction_S.cross(N).norm() < 0.3) sample.direction_S = N.unitOrthogonal();
             samples.push_back(sample);
@@ -125,22 +125,23 @@ TEST(ContactGeometrySurfaceTest, ItsSizeGoesWithTheGeometryFromMillimetersToKilo
 TEST(ContactGeometrySurfaceTest, AHalfSpaceIsAPlaneAndNeedsASize) {
     // SimTK's half space is where x > 0.
     const ContactGeometrySurface surface(SimTK::ContactGeometry::HalfSpace(), 2);
-    Vec3 N;
-    EXPECT_NEAR(surface.calcHeightAndNormal(Vec3(-0.3, 1, 2), N), 0.3, 1e-15);
-    EXPECT_LT((N - Vec3(-1, 0, 0)).norm(), 1e-15);
+    Vector3 N;
+    EXPECT_NEAR(surface.calcHeightAndNormal(Vector3(-0.3, 1, 2), N), 0.3, 1e-15);
+    EXPECT_LT((N - Vector3(-1, 0, 0)).norm(), 1e-15);
     EXPECT_MESSAGE(ContactGeometrySurface(SimTK::ContactGeometry::HalfSpace()), "size must be positive and finite");
 }
 
 TEST(ContactGeometrySurfaceTest, AHeightMapIsOutsideAboveAndGoesOnBeyondItsEdges) {
     const ContactGeometrySurface surface(makeHeightMap());
     const auto twin = makeHeightMapTwin();
-    for (const Vec3& p : {Vec3(0.2, 0.3, 1), Vec3(0.2, 0.3, -1), Vec3(1.4, 0.2, 0.1), Vec3(-1.2, 3, 0.5)}) {
-        Vec3 N, twinN;
+    for (const Vector3& p :
+         {Vector3(0.2, 0.3, 1), Vector3(0.2, 0.3, -1), Vector3(1.4, 0.2, 0.1), Vector3(-1.2, 3, 0.5)}) {
+        Vector3 N, twinN;
         EXPECT_NEAR(surface.calcHeightAndNormal(p, N), twin->calcHeightAndNormal(p, twinN), 1e-13);
         EXPECT_LT((N - twinN).norm(), 1e-13);
     }
-    EXPECT_TRUE(surface.isInDomain({Vec3(0.9, -0.9, -0.067), Vec2::Zero(), 0}));
-    EXPECT_FALSE(surface.isInDomain({Vec3(1.1, 0, 0.016), Vec2::Zero(), 0}));
+    EXPECT_TRUE(surface.isInDomain({Vector3(0.9, -0.9, -0.067), Vector2::Zero(), 0}));
+    EXPECT_FALSE(surface.isInDomain({Vector3(1.1, 0, 0.016), Vector2::Zero(), 0}));
 }
 
 TEST(ContactGeometrySurfaceTest, InsideAHeightMapIsThePrismBelowItsRectangle) {
@@ -148,14 +149,16 @@ TEST(ContactGeometrySurfaceTest, InsideAHeightMapIsThePrismBelowItsRectangle) {
     Random random(12);
     int inside = 0;
     for (int i = 0; i < 2000; ++i) {
-        const Vec3 p = i % 2 == 0 ? random.vector(1.5) : Vec3(random.vector(1) + Vec3(0, 0, random.uniform(-100, 0)));
+        const Vector3 p =
+            i % 2 == 0 ? random.vector(1.5) : Vector3(random.vector(1) + Vector3(0, 0, random.uniform(-100, 0)));
         const double x = p.x(), y = p.y();
         const bool isBelow = std::abs(x) <= 1 && std::abs(y) <= 1 && p.z() < 0.5 - 0.4 * x * x - 0.3 * y * y;
         EXPECT_EQ(surface.calcHeight(p) < 0, isBelow) << p.transpose();
         inside += isBelow;
     }
     EXPECT_GT(inside, 200);
-    for (const double z : {-1e4, -3.0, -0.1, 0.0, 0.3, 100.0}) EXPECT_GT(surface.calcHeight(Vec3(3, -0.2, z)), 0) << z;
+    for (const double z : {-1e4, -3.0, -0.1, 0.0, 0.3, 100.0})
+        EXPECT_GT(surface.calcHeight(Vector3(3, -0.2, z)), 0) << z;
 }
 
 TEST(ContactGeometrySurfaceTest, APathOverTheEdgeOfAHeightMapHasLeftItsDomain) {
@@ -220,7 +223,7 @@ TEST(MakeSurface, GivesTheCoresOwnShapes) {
     using G = SimTK::ContactGeometry;
     EXPECT_EQ(makeSurface(G::Sphere(0.5))->getDescription(), Sphere(0.5).getDescription());
     EXPECT_EQ(makeSurface(G::Cylinder(0.4))->getDescription(), Cylinder(0.4).getDescription());
-    EXPECT_EQ(makeSurface(G::Ellipsoid({1, 2, 3}))->getDescription(), Ellipsoid(Vec3(1, 2, 3)).getDescription());
+    EXPECT_EQ(makeSurface(G::Ellipsoid({1, 2, 3}))->getDescription(), Ellipsoid(Vector3(1, 2, 3)).getDescription());
     EXPECT_EQ(makeSurface(G::Torus(1, 0.3))->getDescription(), Torus(1, 0.3).getDescription());
     EXPECT_MESSAGE(makeSurface(G::Brick({1, 1, 1})), "not smooth");
     EXPECT_MESSAGE(makeSurface(G()), "empty");
@@ -235,16 +238,16 @@ TEST(MakeSurface, OccupiesWhatTheGeometryOccupies) {
         const std::shared_ptr<const Surface> surface = makeSurface(geometry);
         SCOPED_TRACE(surface->getDescription());
         for (int i = 0; i < 200; ++i) {
-            const Vec3 p = random.vector(0.9);
+            const Vector3 p = random.vector(0.9);
             const bool isHalfSpace = SimTK::ContactGeometry::HalfSpace::isInstance(geometry);
             const double f = isHalfSpace ? p.x() : geometry.calcSurfaceValue(toSimTK(p));
             EXPECT_EQ(surface->calcHeight(p) < 0, f > 0) << p.transpose();
             const SurfacePoint foot = surface->findSurfacePoint(p);
             if (!(surface->calcDomainMargin(foot) > 0)) continue;
-            const Vec3 N = surface->calcFrame(foot, Vec3(1, 2, 3)).N;
-            const Vec3 outward =
+            const Vector3 N = surface->calcFrame(foot, Vector3(1, 2, 3)).N;
+            const Vector3 outward =
                 isHalfSpace ? toEigen(SimTK::Vec3(SimTK::ContactGeometry::HalfSpace::getAs(geometry).getNormal()))
-                            : Vec3(-toEigen(geometry.calcSurfaceGradient(toSimTK(foot.p))).normalized());
+                            : Vector3(-toEigen(geometry.calcSurfaceGradient(toSimTK(foot.p))).normalized());
             EXPECT_LT((N - outward).norm(), 1e-9) << p.transpose();
         }
     }
@@ -269,12 +272,12 @@ TEST(MakeSurface, AHeightMapHasTheValuesOfTheBicubicSurface) {
             return map.calcDerivative(SimTK::Array_<int>(components.begin(), components.end()), at);
         };
         const double fx = differentiate({0}), fy = differentiate({1}), slope = std::sqrt(1 + fx * fx + fy * fy);
-        const SurfacePoint point{Vec3(at[0], at[1], map.calcValue(at)), Vec2(at[0], at[1]), 0};
+        const SurfacePoint point{Vector3(at[0], at[1], map.calcValue(at)), Vector2(at[0], at[1]), 0};
         worst = std::max(worst, std::abs(surface->calcHeight(point.p)));
         const DarbouxFrame frame = surface->calcFrame(point, random.vector(1));
-        worstNormal = std::max(worstNormal, (frame.N - Vec3(-fx, -fy, 1) / slope).norm());
+        worstNormal = std::max(worstNormal, (frame.N - Vector3(-fx, -fy, 1) / slope).norm());
         // The second fundamental form of a graph.
-        const Vec3& t = frame.t;
+        const Vector3& t = frame.t;
         const double curvature = (differentiate({0, 0}) * t.x() * t.x() + 2 * differentiate({0, 1}) * t.x() * t.y() +
                                   differentiate({1, 1}) * t.y() * t.y()) /
                                  slope;
@@ -285,10 +288,10 @@ TEST(MakeSurface, AHeightMapHasTheValuesOfTheBicubicSurface) {
     EXPECT_LT(worst, 1e-14);
     EXPECT_LT(worstNormal, 1e-13);
     EXPECT_LT(worstCurvature, 1e-12);
-    EXPECT_GT(surface->calcDomainMargin(surface->findSurfacePoint(Vec3(x[0] + 0.1, 0, 0))), 0);
-    EXPECT_LT(surface->calcDomainMargin(surface->findSurfacePoint(Vec3(x[0] - 0.1, 0, 0))), 0);
-    EXPECT_GT(surface->calcHeight(Vec3(x[0] - 0.1, 0, -5)), 0);  // beside the map is outside
-    EXPECT_LT(surface->calcHeight(Vec3(x[0] + 0.1, 0, -5)), 0);
+    EXPECT_GT(surface->calcDomainMargin(surface->findSurfacePoint(Vector3(x[0] + 0.1, 0, 0))), 0);
+    EXPECT_LT(surface->calcDomainMargin(surface->findSurfacePoint(Vector3(x[0] - 0.1, 0, 0))), 0);
+    EXPECT_GT(surface->calcHeight(Vector3(x[0] - 0.1, 0, -5)), 0);  // beside the map is outside
+    EXPECT_LT(surface->calcHeight(Vector3(x[0] + 0.1, 0, -5)), 0);
 }
 
 TEST(MakeSurface, ACableTakesGeometryAsItIs) {

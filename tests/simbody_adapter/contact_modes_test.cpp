@@ -31,10 +31,10 @@ struct SwingScene : BareScene {
     /** In the plane: two tangents and an arc, or the straight line. */
     Real calcLength(const State& state) const {
         const SimTK::Vec3 p = mass.getBodyOriginLocation(state);
-        const Vec2 A(-1.5, 0.3), B(p[0], p[1]);
-        const Vec2 along = (B - A).normalized();
+        const Vector2 A(-1.5, 0.3), B(p[0], p[1]);
+        const Vector2 along = (B - A).normalized();
         if (A.x() * along.y() - A.y() * along.x() < -kRadius) return (B - A).norm();  // passes above
-        return calcPlanarLength({{A}, {Vec2(0, 0), kRadius, -1}, {B}}, false);
+        return calcPlanarLength({{A}, {Vector2(0, 0), kRadius, -1}, {B}}, false);
     }
 
     MobilizedBody::Planar mass;

@@ -31,10 +31,10 @@ TEST(Conversions, PosesMapPointsAlikeAndComeBack) {
 
 TEST(Conversions, SpatialVectorsPutAnglesFirst) {
     const SimTK::SpatialVec V(SimTK::Vec3(1, 2, 3), SimTK::Vec3(4, 5, 6));
-    EXPECT_EQ(toSpatialVelocity(V).w, Vec3(1, 2, 3));
-    EXPECT_EQ(toSpatialVelocity(V).v, Vec3(4, 5, 6));
-    EXPECT_EQ(toSpatialForce(V).moment, Vec3(1, 2, 3));
-    EXPECT_EQ(toSpatialForce(V).force, Vec3(4, 5, 6));
+    EXPECT_EQ(toSpatialVelocity(V).w, Vector3(1, 2, 3));
+    EXPECT_EQ(toSpatialVelocity(V).v, Vector3(4, 5, 6));
+    EXPECT_EQ(toSpatialForce(V).moment, Vector3(1, 2, 3));
+    EXPECT_EQ(toSpatialForce(V).force, Vector3(4, 5, 6));
     EXPECT_EQ(toSpatialVec(toSpatialVelocity(V)), V);
     EXPECT_EQ(toSpatialVec(toSpatialForce(V)), V);
 }

@@ -66,7 +66,7 @@ TEST(EndInside, ComesOutOfEverySurfaceAsIfFoundAnew) {
     SimTK::Random::Uniform random(-1, 1);
     random.setSeed(5);
     const std::shared_ptr<const Surface> surfaces[] = {std::make_shared<Sphere>(0.5), std::make_shared<Cylinder>(0.5),
-                                                       std::make_shared<Ellipsoid>(Vec3(0.6, 0.45, 0.5)),
+                                                       std::make_shared<Ellipsoid>(Vector3(0.6, 0.45, 0.5)),
                                                        std::make_shared<Torus>(0.6, 0.2)};
     std::map<const Surface*, int> numSolved;
     for (int i = 0; i < 20; ++i) {

@@ -26,7 +26,7 @@ Obstacle makeCylinder(Real x, Real radius) {
 Obstacle makeSphere(Real x, Real y, Real radius) {
     return {std::make_shared<Sphere>(radius), SimTK::Vec3(x, y, 0), SimTK::Vec3(0, radius, 0)};
 }
-Obstacle makeEllipsoid(Real x, const Vec3& semiAxes) {
+Obstacle makeEllipsoid(Real x, const Vector3& semiAxes) {
     return {std::make_shared<Ellipsoid>(semiAxes), SimTK::Vec3(x, 0, 0), SimTK::Vec3(0, semiAxes.y(), 0)};
 }
 /** The ring stands across the string, which passes over the top of the tube. */
@@ -179,7 +179,7 @@ TEST(Energy, IsKeptOverASphere) {
     expectEnergyKept({makeSphere(0, 0, 0.3)});
 }
 TEST(Energy, IsKeptOverAnEllipsoid) {
-    expectEnergyKept({makeEllipsoid(0, Vec3(0.4, 0.3, 0.35))});
+    expectEnergyKept({makeEllipsoid(0, Vector3(0.4, 0.3, 0.35))});
 }
 TEST(Energy, IsKeptOverATorus) {
     expectEnergyKept({makeTorus(0, 1, 0.3)});
@@ -201,7 +201,7 @@ TEST(Energy, IsKeptForAMinuteOverACylinderAndASphere) {
     expectEnergyKeptForAMinute({makeCylinder(-4, 2.5), makeSphere(2.5, -1, 4)});
 }
 TEST(LongEnergy, IsKeptForAMinuteOverAnEllipsoidAndATorus) {
-    expectEnergyKeptForAMinute({makeEllipsoid(-4, Vec3(3, 2.5, 3.5)), makeTorus(2.5, 10, 3)});
+    expectEnergyKeptForAMinute({makeEllipsoid(-4, Vector3(3, 2.5, 3.5)), makeTorus(2.5, 10, 3)});
 }
 
 void expectWorkOfDriversGained(const std::vector<Obstacle>& obstacles, Real damping) {
@@ -214,7 +214,8 @@ void expectWorkOfDriversGained(const std::vector<Obstacle>& obstacles, Real damp
 
 TEST(Energy, GainsTheWorkOfTheDrivers) {
     expectWorkOfDriversGained(
-        {drive(makeCylinder(-0.4, 0.25), 0.05, 2.1), drive(makeEllipsoid(0.25, Vec3(0.35, 0.3, 0.4)), 0.04, 3.3)}, 0);
+        {drive(makeCylinder(-0.4, 0.25), 0.05, 2.1), drive(makeEllipsoid(0.25, Vector3(0.35, 0.3, 0.4)), 0.04, 3.3)},
+        0);
 }
 TEST(Energy, GainsTheWorkOfTheDriverOfATorus) {
     expectWorkOfDriversGained({drive(makeTorus(0, 1, 0.3), 0.08, 2.7)}, 0);

@@ -144,9 +144,9 @@ TEST(PeerCases, TheShortestWayRoundASphereIsFoundFromTheLongest) {
         scene.cable.addObstacle(scene.free, Transform(), makeShape<Geometry::Sphere>(1), Vec3(-1, 0, 0.1));
     scene.realize();
     EXPECT_EQ(scene.cable.getStatus(scene.state), PathStatus::Solved);
-    const Geodesic& arc = scene.cable.getSolution(scene.state).contacts[sphere].geodesic;
-    EXPECT_LT((arc.P.x - tautline::Vec3(c, c, 0)).norm(), 1e-11);
-    EXPECT_LT((arc.Q.x - tautline::Vec3(c, -c, 0)).norm(), 1e-11);
+    const ShotGeodesic& arc = scene.cable.getSolution(scene.state).contacts[sphere].geodesic;
+    EXPECT_LT((arc.P.x - tautline::Vector3(c, c, 0)).norm(), 1e-11);
+    EXPECT_LT((arc.Q.x - tautline::Vector3(c, -c, 0)).norm(), 1e-11);
 }
 
 /** Ends close together far below a ring, through whose hole the string is asked to go: about the tube's lowest circle,

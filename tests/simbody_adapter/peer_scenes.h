@@ -45,7 +45,7 @@ struct TautlineCables {
         ElasticStringForce spring;
     };
 
-    CableSubsystem subsystem;
+    CablePathSubsystem subsystem;
 };
 
 /** The same with Simbody's own. */

@@ -15,7 +15,7 @@ struct QuarterCircles : BareScene {
         MobilizedBody::Weld end(ground, Transform(SimTK::Vec3(-4, 0, 0)), makeBody(), Transform());
         cable = Cable(cables, start, SimTK::Vec3(0), end, SimTK::Vec3(0), "quarters");
         add(turned, {1, 11, 0}, std::make_shared<Torus>(10, 1), {1 - c, 1 + c, 0});
-        add(0, {4.5, 1, 0}, std::make_shared<Ellipsoid>(Vec3(1, 1, 6)), {4.5 + c, 1 + c, 0});
+        add(0, {4.5, 1, 0}, std::make_shared<Ellipsoid>(Vector3(1, 1, 6)), {4.5 + c, 1 + c, 0});
         add(turned, {4, -12, 0}, std::make_shared<Torus>(10, 1.5), {4 + 1.5 * c, -2 - 1.5 * c, 0});
         add(0, {-2, -1.5, 0}, std::make_shared<Cylinder>(2), {-2 - 2 * c, -1.5 - 2 * c, 0});
         state = system.realizeTopology();

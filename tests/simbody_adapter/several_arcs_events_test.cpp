@@ -19,17 +19,17 @@ class BumpySphere final : public ImplicitSurface {
 public:
     double getSize() const override { return 1; }
     std::string getDescription() const override { return "bumpy sphere"; }
-    ImplicitValue calcImplicit(const Vec3& p) const override {
+    ImplicitValue calcImplicit(const Vector3& p) const override {
         constexpr double height = 0.05, w2 = 0.15 * 0.15;
         const double rho = p.norm();
-        const Vec3 radial = p / rho;
-        ImplicitValue value{rho - 1, radial, (Mat3::Identity() - radial * radial.transpose()) / rho};
+        const Vector3 radial = p / rho;
+        ImplicitValue value{rho - 1, radial, (Matrix3::Identity() - radial * radial.transpose()) / rho};
         for (const double side : {-1.0, 1.0}) {
-            const Vec3 from = p - Vec3(side * std::sin(0.25), 0, std::cos(0.25));
+            const Vector3 from = p - Vector3(side * std::sin(0.25), 0, std::cos(0.25));
             const double rise = height * std::exp(-from.squaredNorm() / w2);
             value.f -= rise;
             value.gradient += 2 * rise / w2 * from;
-            value.hessian += 2 * rise / w2 * (Mat3::Identity() - 2 / w2 * from * from.transpose());
+            value.hessian += 2 * rise / w2 * (Matrix3::Identity() - 2 / w2 * from * from.transpose());
         }
         return value;
     }

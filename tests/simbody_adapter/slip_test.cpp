@@ -84,7 +84,8 @@ TEST(Slip, AStringSlidesRoundASmallSphereAlikeAtAnyAccuracy) {
     };
     for (const auto& [surface, z] :
          {Case{std::make_shared<Sphere>(0.05), 0.03}, Case{std::make_shared<Sphere>(0.05), 0.005},
-          Case{std::make_shared<Sphere>(0.3), 0.1}, Case{std::make_shared<Ellipsoid>(Vec3(0.1, 0.05, 0.07)), 0.03}}) {
+          Case{std::make_shared<Sphere>(0.3), 0.1},
+          Case{std::make_shared<Ellipsoid>(Vector3(0.1, 0.05, 0.07)), 0.03}}) {
         SCOPED_TRACE(surface->getDescription() + " at z = " + std::to_string(z));
         std::vector<ContactEvent> expected;
         Real length = 0;
@@ -111,7 +112,7 @@ TEST(Slip, AStringSlidesRoundASmallSphereAlikeAtAnyAccuracy) {
 /** A string between two points of a slider that is pressed down on an ellipsoid about the origin, in its plane of
 symmetry, from 0.1 above the top, as deep as depth sin(t). */
 struct PressedString : BareScene {
-    PressedString(const Vec3& semiAxes, Real halfWidth, Real depth)
+    PressedString(const Vector3& semiAxes, Real halfWidth, Real depth)
         : c(semiAxes.z()), halfLength(halfWidth), amplitude(depth) {
         const SimTK::Rotation upward(SimTK::Pi / 2, SimTK::ZAxis);
         slider = MobilizedBody::Slider(matter.Ground(), Transform(upward, SimTK::Vec3(0, semiAxes.y() + rise, 0)),
@@ -150,7 +151,7 @@ struct PressedString : BareScene {
 TEST(Slip, AStringSlipsOffWhereItsStabilityEndsAtAnyAccuracy) {
     for (const Real accuracy : {1e-1, 1e-3, 1e-6, 1e-8}) {
         SCOPED_TRACE(accuracy);
-        PressedString scene(Vec3(0.5, 0.5, 0.2), 1, 0.5);
+        PressedString scene(Vector3(0.5, 0.5, 0.2), 1, 0.5);
         const State initial = scene.system.realizeTopology();
         const Outcome run = testing::simulate(scene, scene.cable, scene.obstacle, initial, accuracy, 1.5, 0.1);
         ASSERT_GE(run.events.size(), 2u);
@@ -171,7 +172,7 @@ TEST(Slip, AStringSlipsOffWhereItsStabilityEndsAtAnyAccuracy) {
 
 // An elastic string that springs press on a broad ellipsoid: at the end it snaps from its top.
 TEST(Slip, TakesTheEnergyThatItsLengthsSay) {
-    PressedString scene(Vec3(1, 0.5, 0.6), 1.5, 0);
+    PressedString scene(Vector3(1, 0.5, 0.6), 1.5, 0);
     constexpr Real slackLength = 2.9, stiffness = 20;
     const ElasticStringForce string(scene.forces, scene.cable, stiffness, slackLength);
     SimTK::Force::MobilityLinearSpring(scene.forces, scene.slider, SimTK::MobilizerUIndex(0), 30, -0.8);
@@ -219,7 +220,7 @@ struct FlungMass : BareScene {
                                                stiffness[i] + 8 * random.getValue(), rest[i] + 0.1 * random.getValue());
         cable = Cable(cables, matter.Ground(), SimTK::Vec3(-1, 0, 0), mass, SimTK::Vec3(0));
         const std::shared_ptr<const Surface> kinds[] = {std::make_shared<Sphere>(0.05),
-                                                        std::make_shared<Ellipsoid>(Vec3(0.05, 0.1, 0.075)),
+                                                        std::make_shared<Ellipsoid>(Vector3(0.05, 0.1, 0.075)),
                                                         std::make_shared<Cylinder>(0.05)};
         for (int i = 0; i < 3; ++i) {
             const SimTK::UnitVec3 axis(SimTK::Vec3(random.getValue(), random.getValue(), 0.3));

@@ -46,12 +46,12 @@ struct AskedScene {
     std::string kind;  ///< of the surface
     PathProblem problem;
     PathPose pose;
-    Vec3 A_S, B_S;
+    Vector3 A_S, B_S;
     bool isKnown = true;           ///< false: the truth was not found, and nothing is judged
     std::optional<double> length;  ///< of the path that is asked for, if there is one
     std::string description;
     /** Whether a minimum other than that path is as asked as well. */
-    std::function<bool(const std::vector<Vec3>& nodes_S)> isAsAsked = [](const auto&) { return false; };
+    std::function<bool(const std::vector<Vector3>& nodes_S)> isAsAsked = [](const auto&) { return false; };
 };
 
 /** What a solve came to. */
@@ -70,10 +70,10 @@ inline const char* getName(Outcome outcome) {
 }
 
 /** Points along the path, in the frame of its obstacle. */
-inline std::vector<Vec3> calcNodes(const AskedScene& scene, const PathSolution& path) {
-    std::vector<Vec3> points;
+inline std::vector<Vector3> calcNodes(const AskedScene& scene, const PathSolution& path) {
+    std::vector<Vector3> points;
     calcDrawingPoints(path, scene.problem, scene.pose, 0.02 * scene.problem.getElement(1).surface->getSize(), points);
-    for (Vec3& p : points) p = scene.pose.X_GE[1].shiftBack(p);
+    for (Vector3& p : points) p = scene.pose.X_GE[1].shiftBack(p);
     return points;
 }
 
@@ -88,7 +88,7 @@ inline Outcome judge(const AskedScene& scene, const PathSolution& path) {
     return isMinimum && scene.isAsAsked(calcNodes(scene, path)) ? Outcome::Another : Outcome::Silent;
 }
 
-inline double calcTurning(const std::vector<Vec3>& nodes) {
+inline double calcTurning(const std::vector<Vector3>& nodes) {
     double turning = 0;
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) turning += calcShortTurning(nodes[i], nodes[i + 1]);
     return turning;
@@ -117,13 +117,13 @@ private:
         m_scene.A_S = makePlaceAbout(m_radius);
         m_scene.B_S = makePlaceAbout(m_radius);
     }
-    Vec3 makePlaceAbout(double radius) {
+    Vector3 makePlaceAbout(double radius) {
         const double rho = radius * m_random.logUniform(1.02, 10), azimuth = m_random.uniform(-kPi, kPi);
         return makeOnCylinder(rho, azimuth, m_random.uniform(-3, 3) * radius);
     }
     void makeCylinderSide() {
         makeCylinder();
-        Vec3 side = m_random.unitVector();
+        Vector3 side = m_random.unitVector();
         if (m_random.pick(3) > 0) side.z() = 0;
         finish(PassOnSide{side}, toLength(findStringOnSide(m_radius, m_scene.A_S, m_scene.B_S, side)), "side", side);
     }
@@ -133,7 +133,7 @@ private:
             makeCylinder();
             const auto ways = calcBothWays(m_radius, m_scene.A_S, m_scene.B_S);
             const int wanted = m_random.pick(2);
-            const Vec3 point = ways[wanted].middle + m_random.vector(0.3 * m_radius);
+            const Vector3 point = ways[wanted].middle + m_random.vector(0.3 * m_radius);
             const auto toPoint = [&](int i) {
                 return calcDistanceToString(ways[i], m_radius, m_scene.A_S, m_scene.B_S, point);
             };
@@ -147,7 +147,7 @@ private:
         makeCylinder();
         const double turns = m_random.uniform(-1, 1) * m_random.logUniform(0.5, 12);
         finish(WindAround{turns}, calcWoundString(m_radius, m_scene.A_S, m_scene.B_S, turns).length, "turns",
-               Vec3(turns, 0, 0));
+               Vector3(turns, 0, 0));
     }
 
     // Over other bodies.
@@ -160,7 +160,7 @@ private:
                 setBody("sphere", std::make_shared<Sphere>(size), size);
                 break;
             case 1:
-                setBody("ellipsoid", std::make_shared<Ellipsoid>(Vec3(a, b, c)), std::max({a, b, c}));
+                setBody("ellipsoid", std::make_shared<Ellipsoid>(Vector3(a, b, c)), std::max({a, b, c}));
                 break;
             case 2:
                 setBody("capsule", std::make_shared<Capsule>(a, b, c), std::max(a, 0.5 * b + c));
@@ -177,24 +177,24 @@ private:
         m_scene.A_S = makePlaceOutside();
         m_scene.B_S = makePlaceOutside();
     }
-    Vec3 makePlaceOutside() {
-        Vec3 p;
+    Vector3 makePlaceOutside() {
+        Vector3 p;
         do p = m_radius * m_random.logUniform(0.5, 5) * m_random.unitVector();
         while (m_surface->calcHeight(p) < 0.03 * m_surface->getSize());
         return p;
     }
     /** The taut strings that turn by less than a full turn; no string twice. */
-    std::vector<TautString> findStrings(const Vec3& over) {
-        const Vec3 &A = m_scene.A_S, &B = m_scene.B_S;
-        std::vector<std::vector<Vec3>> courses;
+    std::vector<TautString> findStrings(const Vector3& over) {
+        const Vector3 &A = m_scene.A_S, &B = m_scene.B_S;
+        std::vector<std::vector<Vector3>> courses;
         if (m_hasAxis) {
             const double turning = calcShortTurning(A, B);
             for (const double t : {turning, turning - std::copysign(2 * kPi, turning)})
                 courses.push_back(makeCourseAboutAxis(A, B, t, 1.5 * m_radius));
         } else {
-            const Vec3 along = (B - A).normalized();
-            const Vec3 up = (over - over.dot(along) * along).normalized(), across = along.cross(up);
-            for (const Vec3& v : {up, Vec3(-up), across, Vec3(-across)})
+            const Vector3 along = (B - A).normalized();
+            const Vector3 up = (over - over.dot(along) * along).normalized(), across = along.cross(up);
+            for (const Vector3& v : {up, Vector3(-up), across, Vector3(-across)})
                 courses.push_back(makeCourseOver(A, B, v, 1.5 * m_radius));
         }
         std::vector<TautString> strings;
@@ -212,43 +212,43 @@ private:
     static bool areSmooth(const std::vector<TautString>& strings) {
         return std::all_of(strings.begin(), strings.end(), [](const TautString& s) { return s.isSmooth(); });
     }
-    Vec3 calcAcross(Vec3 direction) const {
+    Vector3 calcAcross(Vector3 direction) const {
         if (m_hasAxis) direction.z() = 0;
         return direction;
     }
     /** Half way along what touches, or the surface point nearest to the straight string. */
-    Vec3 findMiddle(const std::vector<Vec3>& nodes) const {
-        std::vector<Vec3> touching;
+    Vector3 findMiddle(const std::vector<Vector3>& nodes) const {
+        std::vector<Vector3> touching;
         for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
             for (int k = 0; k < 20; ++k) {
-                const Vec3 p = nodes[i] + 0.05 * k * (nodes[i + 1] - nodes[i]);
+                const Vector3 p = nodes[i] + 0.05 * k * (nodes[i + 1] - nodes[i]);
                 if (m_surface->calcHeight(p) < 1e-3 * m_surface->getSize()) touching.push_back(p);
             }
         return touching.empty() ? findNearestPoint(*m_surface, nodes.front(), nodes.back())
                                 : m_surface->findSurfacePoint(touching[touching.size() / 2]).p;
     }
-    Vec3 calcOutward(const Vec3& p) const {
-        return m_surface->calcFrame(m_surface->findSurfacePoint(p), Vec3(1, 2, 3)).N;
+    Vector3 calcOutward(const Vector3& p) const {
+        return m_surface->calcFrame(m_surface->findSurfacePoint(p), Vector3(1, 2, 3)).N;
     }
-    void judgeByOutward(const Vec3& point) {
-        m_scene.isAsAsked = [maker = *this, point](const std::vector<Vec3>& nodes) {
+    void judgeByOutward(const Vector3& point) {
+        m_scene.isAsAsked = [maker = *this, point](const std::vector<Vector3>& nodes) {
             return maker.calcOutward(maker.findMiddle(nodes)).dot(maker.calcOutward(point)) >= 0;
         };
     }
     void makeBodySide() {
         makeBody();
-        const Vec3 side = m_random.unitVector();
+        const Vector3 side = m_random.unitVector();
         const std::vector<TautString> strings = findStrings(side);
         m_scene.isKnown = areSmooth(strings);
         std::optional<double> length;
         for (const TautString& string : strings)
             if (!length && calcAcross(side).dot(string.middle) >= 0) length = string.length;
-        m_scene.isAsAsked = [maker = *this, side](const std::vector<Vec3>& nodes) {
+        m_scene.isAsAsked = [maker = *this, side](const std::vector<Vector3>& nodes) {
             return maker.calcAcross(side).dot(maker.findMiddle(nodes)) >= 0;
         };
         finish(PassOnSide{side}, length, "side", side);
     }
-    static double calcDistance(const TautString& string, const Vec3& p) {
+    static double calcDistance(const TautString& string, const Vector3& p) {
         double nearest = kInfinity;
         for (std::size_t i = 0; i + 1 < string.nodes.size(); ++i)
             nearest = std::min(nearest, calcDistanceToSegment(p, string.nodes[i], string.nodes[i + 1]));
@@ -259,7 +259,7 @@ private:
             makeBody();
             const std::vector<TautString> strings = findStrings(m_random.unitVector());
             const TautString& wanted = strings[m_random.pick(static_cast<int>(strings.size()))];
-            const Vec3 point = wanted.middle + m_random.vector(0.2 * m_surface->getSize());
+            const Vector3 point = wanted.middle + m_random.vector(0.2 * m_surface->getSize());
             const double distance = calcDistance(wanted, point);
             bool isClear = true;
             for (const TautString& other : strings)
@@ -285,7 +285,7 @@ private:
         m_scene.isKnown = string.isSmooth();
         m_scene.isAsAsked = turnsSo;
         finish(WindAround{turns}, turnsSo(string.nodes) ? std::optional(string.length) : std::nullopt, "turns",
-               Vec3(turns, 0, 0));
+               Vector3(turns, 0, 0));
     }
 
     // Through rings.
@@ -300,18 +300,19 @@ private:
         } while ((m_scene.A_S - m_scene.B_S).norm() < 0.3 * m_radius);
         if (m_random.pick(4) == 0) return makeNearHole(hole);
         const int passages = m_random.pick(5) == 0 ? 0 : (m_random.flip() ? 1 : -1);
-        finishThreaded(ThreadHole{passages}, passages, hole, "passages", Vec3(passages, 0, 0));
+        finishThreaded(ThreadHole{passages}, passages, hole, "passages", Vector3(passages, 0, 0));
     }
     /** A point in the hole, between ends on both sides of it. */
     void makeNearHole(double hole) {
         if (m_scene.A_S.z() * m_scene.B_S.z() > 0) m_scene.B_S.z() *= -1;
         const int passages = m_scene.B_S.z() > 0 ? 1 : -1;
-        const Vec3 point = m_random.vector(0.3 * hole);
+        const Vector3 point = m_random.vector(0.3 * hole);
         finishThreaded(PassNear{point}, passages, hole, "near the middle of the hole", point);
     }
-    void finishThreaded(const StartHint& hint, int passages, double hole, const std::string& what, const Vec3& given) {
+    void finishThreaded(const StartHint& hint, int passages, double hole, const std::string& what,
+                        const Vector3& given) {
         const TautString string = findTautString(*m_surface, makeCourseThrough(passages), countSprings(hole));
-        const auto goesSo = [surface = m_surface, passages](const std::vector<Vec3>& nodes) {
+        const auto goesSo = [surface = m_surface, passages](const std::vector<Vector3>& nodes) {
             int count = 0;
             for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
                 count += surface->getHole()->countCrossings(nodes[i], nodes[i + 1]);
@@ -324,15 +325,15 @@ private:
     int countSprings(double hole) const {
         return static_cast<int>(std::clamp(3 * m_radius / (0.2 * hole), 120.0, 400.0));
     }
-    std::vector<Vec3> makeCourseThrough(int passages) const {
+    std::vector<Vector3> makeCourseThrough(int passages) const {
         const double radius = 1.15 * m_radius;
-        const Vec3 aside = (m_scene.A_S.normalized() + m_scene.B_S.normalized());
-        const Vec3 outwards = Vec3(aside.x(), aside.y(), 0).normalized();
+        const Vector3 aside = (m_scene.A_S.normalized() + m_scene.B_S.normalized());
+        const Vector3 outwards = Vector3(aside.x(), aside.y(), 0).normalized();
         if (passages == 0) return makeCourseOver(m_scene.A_S, m_scene.B_S, outwards, radius);
-        const Vec3 enter(0, 0, -radius * passages), leave = -enter;
-        std::vector<Vec3> course =
+        const Vector3 enter(0, 0, -radius * passages), leave = -enter;
+        std::vector<Vector3> course =
             makeCourseOver(m_scene.A_S, enter, (m_scene.A_S.normalized() + enter / radius), radius);
-        const std::vector<Vec3> out =
+        const std::vector<Vector3> out =
             makeCourseOver(leave, m_scene.B_S, (m_scene.B_S.normalized() + leave / radius), radius);
         course.insert(course.end(), out.begin(), out.end());
         return course;
@@ -345,7 +346,7 @@ private:
         return string.isSmooth() ? std::optional(string.length) : std::nullopt;
     }
 
-    void finish(const StartHint& hint, std::optional<double> length, const std::string& what, const Vec3& given) {
+    void finish(const StartHint& hint, std::optional<double> length, const std::string& what, const Vector3& given) {
         const Pose X_GS = m_random.pose(1);
         m_scene.length = length;
         m_scene.problem = PathProblem();

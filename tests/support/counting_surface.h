@@ -15,18 +15,19 @@ public:
     long getNumHeights() const { return m_numHeights; }
     long getNumShots() const { return m_numShots; }
 
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override {
         ++m_numHeights;
         return getBase().calcHeightAndNormal(p_S, N_S);
     }
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override { return getBase().findSurfacePoint(p_S); }
-    SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vec3& displacement_S) const override {
+    SurfacePoint findSurfacePoint(const Vector3& p_S) const override { return getBase().findSurfacePoint(p_S); }
+    SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vector3& displacement_S) const override {
         return getBase().calcDisplacedPoint(start, displacement_S);
     }
-    DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override {
+    DarbouxFrame calcFrame(const SurfacePoint& point, const Vector3& direction_S) const override {
         return getBase().calcFrame(point, direction_S);
     }
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                       ShotGeodesic& geodesic) const override {
         ++m_numShots;
         getBase().shootGeodesic(start, options, geodesic);
     }

@@ -16,7 +16,7 @@ struct PosedPath {
     PathProblem problem;
     PathPose pose;
 
-    void addPoint(const Vec3& p) {
+    void addPoint(const Vector3& p) {
         problem.addPoint("point" + std::to_string(problem.getNumElements()));
         pose.X_GE.emplace_back(p);
     }
@@ -33,9 +33,9 @@ public:
     enum class Hints { None, Right };
 
     UserChain(int count, Hints hints, unsigned seed, double scale = 1) : m_random(seed), m_scale(scale) {
-        m_path.addPoint(scale * Vec3(-1, m_random.uniform(-0.2, 0.2), m_random.uniform(-0.2, 0.2)));
+        m_path.addPoint(scale * Vector3(-1, m_random.uniform(-0.2, 0.2), m_random.uniform(-0.2, 0.2)));
         for (int i = 0; i < count; ++i) add(i, hints);
-        m_path.addPoint(scale * Vec3(count, m_random.uniform(-0.2, 0.2), m_random.uniform(-0.2, 0.2)));
+        m_path.addPoint(scale * Vector3(count, m_random.uniform(-0.2, 0.2), m_random.uniform(-0.2, 0.2)));
     }
 
     const PosedPath& getPath() const { return m_path; }
@@ -45,12 +45,12 @@ private:
         const double radius = m_random.uniform(0.2, 0.4);
         const double angle = m_random.flip() ? 0.5 * kPi : -0.5 * kPi, askew = m_random.uniform(-0.5, 0.5);
         const double beside = m_random.uniform(0.2, 0.9) * radius;
-        const Vec3 out(0, std::sin(angle + askew), std::cos(angle + askew));
-        const Vec3 axis(m_random.uniform(-0.2, 0.2), m_random.uniform(-0.2, 0.2), 1);
-        const Mat3 R_GS = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
-        const Pose X_GS(R_GS, m_scale * (Vec3(i, 0, 0) + beside * out));
+        const Vector3 out(0, std::sin(angle + askew), std::cos(angle + askew));
+        const Vector3 axis(m_random.uniform(-0.2, 0.2), m_random.uniform(-0.2, 0.2), 1);
+        const Matrix3 R_GS = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
+        const Pose X_GS(R_GS, m_scale * (Vector3(i, 0, 0) + beside * out));
         // Across the axis, as the quadrants of musculoskeletal models are.
-        const Vec3 side = X_GS.rotateBack(-out);
+        const Vector3 side = X_GS.rotateBack(-out);
         const StartHint hint =
             hints == Hints::Right ? StartHint(PassOnSide{{side.x(), side.y(), 0}}) : StartHint(std::monostate());
         m_path.addObstacle(makeSurface(radius * m_scale), X_GS, hint);
@@ -61,7 +61,7 @@ private:
             case 0:
                 return std::make_shared<Sphere>(radius);
             case 1:
-                return std::make_shared<Ellipsoid>(Vec3(a, b, radius));
+                return std::make_shared<Ellipsoid>(Vector3(a, b, radius));
             case 2:
                 return std::make_shared<Capsule>(a, 0.5 * b, 0.5 * radius);
             case 3:
@@ -80,8 +80,8 @@ private:
 inline PathProblem addSides(PathProblem problem, const PathSolution& path) {
     for (int e = 0; e < problem.getNumElements(); ++e) {
         if (!path.contacts[e].isTouched) continue;
-        const Geodesic& arc = path.contacts[e].geodesic;
-        Vec3 side = arc.P.x + arc.Q.x;
+        const ShotGeodesic& arc = path.contacts[e].geodesic;
+        Vector3 side = arc.P.x + arc.Q.x;
         side.z() = 0;
         problem.setHint(e, PassOnSide{side});
     }
@@ -104,8 +104,8 @@ public:
         }
         for (std::size_t e = 0; e < m_start.pose.X_GE.size(); ++e) {
             Wave wave;
-            for (Vec3& v : wave.shift) v = m_random.vector(m_size);
-            for (Vec3& v : wave.turn) v = m_random.vector(0.5);
+            for (Vector3& v : wave.shift) v = m_random.vector(m_size);
+            for (Vector3& v : wave.turn) v = m_random.vector(0.5);
             m_waves.push_back(wave);
         }
     }
@@ -116,7 +116,7 @@ public:
     PathPose calcPose(double t) const {
         PathPose pose = m_start.pose;
         for (std::size_t e = 0; e < pose.X_GE.size(); ++e) {
-            Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();
+            Vector3 shift = Vector3::Zero(), turn = Vector3::Zero();
             for (std::size_t k = 0; k < kWaves; ++k) {
                 const double s = std::sin(2 * kPi * static_cast<double>(k + 1) * t);
                 shift += s * m_waves[e].shift[k];
@@ -132,7 +132,7 @@ public:
 private:
     static constexpr std::size_t kWaves = 2;
     struct Wave {
-        std::array<Vec3, kWaves> shift, turn;
+        std::array<Vector3, kWaves> shift, turn;
     };
     SeededRandom m_random;
     PosedPath m_start;
@@ -146,19 +146,19 @@ public:
     static constexpr double kRadius = 0.1;
 
     DrumScene() {
-        m_path.addPoint(Vec3(1, 0.1, 0.05));
+        m_path.addPoint(Vector3(1, 0.1, 0.05));
         m_path.addObstacle(std::make_shared<Cylinder>(kRadius), Pose(), {});
-        m_path.addPoint(Vec3::Zero());
+        m_path.addPoint(Vector3::Zero());
     }
     const PathProblem& getProblem() const { return m_path.problem; }
     PathPose calcPose(double turned) const {
         PathPose pose = m_path.pose;
-        pose.X_GE[1].R = Eigen::AngleAxisd(turned, Vec3::UnitZ()).toRotationMatrix();
+        pose.X_GE[1].R = Eigen::AngleAxisd(turned, Vector3::UnitZ()).toRotationMatrix();
         pose.X_GE[2].p = makeOnCylinder(kRadius, kTiedAt + turned, 0);
         return pose;
     }
     double calcLength(double turned) const {
-        const Vec3 A = m_path.pose.X_GE[0].p, tied = makeOnCylinder(kRadius * (1 + 1e-15), kTiedAt, 0);
+        const Vector3 A = m_path.pose.X_GE[0].p, tied = makeOnCylinder(kRadius * (1 + 1e-15), kTiedAt, 0);
         return calcStringAboutAxis(kRadius, A, tied, calcShortTurning(A, tied) + turned).length;
     }
 
@@ -171,21 +171,21 @@ private:
 struct GrooveScene {
     PosedPath path;
 
-    GrooveScene(const Vec3& origin, const Vec3& insertion) {
+    GrooveScene(const Vector3& origin, const Vector3& insertion) {
         const auto sphere = std::make_shared<Sphere>(0.025);
         path.addPoint(origin);
         for (const double z : {0.018, -0.018})
-            path.addObstacle(sphere, Pose(Vec3(0, 0, z)), PassNear{Vec3(0.025, 0, 0)});
+            path.addObstacle(sphere, Pose(Vector3(0, 0, z)), PassNear{Vector3(0.025, 0, 0)});
         path.addPoint(insertion);
     }
     /** Of the string on the +x side, to 1e-4; NaN where it slides off. */
     double calcLength() const {
         std::vector<Body> bodies;
         for (const int e : {1, 2}) bodies.push_back({path.problem.getElement(e).surface.get(), path.pose.X_GE[e]});
-        TautPolyline string(bodies, {path.pose.X_GE[0].p, Vec3(0.05, 0, 0), path.pose.X_GE[3].p}, 200);
+        TautPolyline string(bodies, {path.pose.X_GE[0].p, Vector3(0.05, 0, 0), path.pose.X_GE[3].p}, 200);
         const bool isAtRest = string.relax(1e-4, 5000);
         bool staysThere = false;
-        for (const Vec3& p : string.getNodes()) staysThere = staysThere || (std::abs(p.y()) < 0.03 && p.x() > 0);
+        for (const Vector3& p : string.getNodes()) staysThere = staysThere || (std::abs(p.y()) < 0.03 && p.x() > 0);
         return isAtRest && staysThere ? string.calcLength() : kNaN;
     }
 };

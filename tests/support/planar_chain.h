@@ -10,7 +10,7 @@ namespace tautline::testing {
 
 /** A circle that the string passes with its center on the left (sense +1) or right (-1); radius 0: a point. */
 struct PlanarStop {
-    Vec2 center;
+    Vector2 center;
     double radius = 0;
     int sense = 1;
 };
@@ -20,7 +20,7 @@ inline double calcPlanarLength(const std::vector<PlanarStop>& stops, bool turns 
     double length = 0, before = 0;
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
         // On the tangent (center - x) . n = sense radius with n to its left.
-        const Vec2 D = stops[i + 1].center - stops[i].center;
+        const Vector2 D = stops[i + 1].center - stops[i].center;
         const double offset = stops[i + 1].sense * stops[i + 1].radius - stops[i].sense * stops[i].radius;
         const double direction = std::atan2(D.y(), D.x()) - std::asin(offset / D.norm());
         length += std::sqrt(D.squaredNorm() - offset * offset);

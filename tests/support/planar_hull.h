@@ -34,7 +34,7 @@ public:
     };
 
     /** @param A, B   (x, z) above the curve, A.x < B.x */
-    PlanarHull(const SheetCurve& curve, const Vec2& A, const Vec2& B) : m_curve(curve) {
+    PlanarHull(const SheetCurve& curve, const Vector2& A, const Vector2& B) : m_curve(curve) {
         findArcs(A, B);
         polish(A, B);
         m_length = calcLength(A, B);
@@ -44,16 +44,16 @@ public:
     double calcLength(double across) const { return std::hypot(m_length, across); }
 
 private:
-    Vec2 getPoint(double x) const { return {x, m_curve.g(x)}; }
+    Vector2 getPoint(double x) const { return {x, m_curve.g(x)}; }
 
     /** The upper hull of many points, each neighboring pair of which belongs to an arc. */
-    void findArcs(const Vec2& A, const Vec2& B) {
+    void findArcs(const Vector2& A, const Vector2& B) {
         constexpr int kSamples = 20000;
-        std::vector<Vec2> hull;
+        std::vector<Vector2> hull;
         std::vector<int> number;
-        const auto add = [&](const Vec2& p, int k) {
+        const auto add = [&](const Vector2& p, int k) {
             const auto isBelow = [&] {
-                const Vec2 a = hull[hull.size() - 2], b = hull.back();
+                const Vector2 a = hull[hull.size() - 2], b = hull.back();
                 return (b - a).x() * (p - a).y() - (b - a).y() * (p - a).x() >= 0;
             };
             while (hull.size() >= 2 && isBelow()) hull.pop_back(), number.pop_back();
@@ -71,7 +71,7 @@ private:
     }
 
     /** Where the line from a point touches the curve. */
-    double findTangent(const Vec2& from, double x) const {
+    double findTangent(const Vector2& from, double x) const {
         for (int i = 0; i < 50; ++i) {
             const double run = x - from.x();
             x -= (m_curve.slope(x) * run - (m_curve.g(x) - from.y())) / (m_curve.curvature(x) * run);
@@ -84,7 +84,7 @@ private:
         for (int i = 0; i < 50; ++i) {
             const double run = x2 - x1, rise = m_curve.g(x2) - m_curve.g(x1);
             const double s1 = m_curve.slope(x1), s2 = m_curve.slope(x2);
-            const Vec2 error(s1 * run - rise, s2 * run - rise);
+            const Vector2 error(s1 * run - rise, s2 * run - rise);
             // Derivatives: d(error) = [k1 run, s1 - s2; s1 - s2, k2 run] (dx1, dx2).
             const double a = m_curve.curvature(x1) * run, b = s1 - s2, c = m_curve.curvature(x2) * run;
             const double determinant = a * c - b * b;
@@ -93,16 +93,16 @@ private:
         }
     }
 
-    void polish(const Vec2& A, const Vec2& B) {
+    void polish(const Vector2& A, const Vector2& B) {
         if (m_arcs.empty()) return;
         m_arcs.front().from = findTangent(A, m_arcs.front().from);
         m_arcs.back().to = findTangent(B, m_arcs.back().to);
         for (std::size_t i = 0; i + 1 < m_arcs.size(); ++i) findBitangent(m_arcs[i].to, m_arcs[i + 1].from);
     }
 
-    double calcLength(const Vec2& A, const Vec2& B) const {
+    double calcLength(const Vector2& A, const Vector2& B) const {
         double length = 0;
-        Vec2 last = A;
+        Vector2 last = A;
         for (const Arc& arc : m_arcs) {
             length += (getPoint(arc.from) - last).norm() + m_curve.calcArcLength(arc.from, arc.to);
             last = getPoint(arc.to);

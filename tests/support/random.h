@@ -17,12 +17,12 @@ public:
     int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(m_engine); }
     /** Any order of magnitude between the two is as likely as any other. */
     double logUniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-    Vec3 vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-    Vec3 unitVector() {
+    Vector3 vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+    Vector3 unitVector() {
         std::normal_distribution<double> normal;
-        return Vec3(normal(m_engine), normal(m_engine), normal(m_engine)).normalized();
+        return Vector3(normal(m_engine), normal(m_engine), normal(m_engine)).normalized();
     }
-    Mat3 rotation() { return Eigen::AngleAxisd(uniform(-kPi, kPi), unitVector()).toRotationMatrix(); }
+    Matrix3 rotation() { return Eigen::AngleAxisd(uniform(-kPi, kPi), unitVector()).toRotationMatrix(); }
     Pose pose(double size) { return {rotation(), vector(size)}; }
 
 private:

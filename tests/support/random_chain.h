@@ -9,7 +9,7 @@
 
 namespace tautline::testing {
 
-inline const GeodesicOptions kChainGeodesics{1e-14, 5000};
+inline const ShootingOptions kChainGeodesics{1e-14, 5000};
 inline const double kChainStep = std::cbrt(1e-14);  // balances noise/h and h^2 of a central difference
 
 /** A chain of random geodesics on random shapes, far from any solution; '.' in `plan` is a via point. */
@@ -78,7 +78,7 @@ private:
     void add(const Shape* shape, double at) {
         const std::string name = std::to_string(m_problem.getNumElements());
         m_contacts.emplace_back();
-        m_pose.X_GE.emplace_back(m_random.rotation(), Vec3(at, 0, 0) + m_random.vector(0.5));
+        m_pose.X_GE.emplace_back(m_random.rotation(), Vector3(at, 0, 0) + m_random.vector(0.5));
         if (!shape) {
             m_problem.addPoint(name);
             return;
@@ -92,7 +92,7 @@ private:
     Chain vary(int unknown, double amount) const {
         Chain varied = m_chain;
         ChainContact& contact = varied.contacts[unknown / kVariations];
-        Vec4 correction = Vec4::Zero();
+        Vector4 correction = Vector4::Zero();
         correction[unknown % kVariations] = amount;
         contact.start = calcCorrectedStart(*m_problem.getElement(contact.element).surface, contact.start,
                                            contact.geodesic.P, correction);

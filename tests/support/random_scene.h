@@ -34,7 +34,7 @@ public:
             const SurfacePtr surface = m_kinds == Kinds::Basic ? makeBasic(size) : makeAny(size);
             problem.addObstacle("s" + std::to_string(i), surface,
                                 m_kinds == Kinds::Aligned ? makeHint(*surface) : near);
-            const Mat3 R = makeRotation();
+            const Matrix3 R = makeRotation();
             pose.X_GE.emplace_back(R, makePlace());
             if (pick(10) == 0) {
                 problem.addPoint("via" + std::to_string(i));
@@ -53,11 +53,13 @@ private:
         return low + (high - low) * (m_random() / static_cast<double>(std::mt19937::max()));
     }
     int pick(int count) { return static_cast<int>(m_random() % static_cast<unsigned>(count)); }
-    Vec3 point(double extent) { return {uniform(-extent, extent), uniform(-extent, extent), uniform(-extent, extent)}; }
+    Vector3 point(double extent) {
+        return {uniform(-extent, extent), uniform(-extent, extent), uniform(-extent, extent)};
+    }
     /** Aligned: in a coarse lattice, so that centers lie on lines and in planes of others. */
-    Vec3 makePlace() {
-        const Vec3 place = point(2);
-        return m_kinds == Kinds::Aligned ? Vec3((2 * place).array().round() / 2) : place;
+    Vector3 makePlace() {
+        const Vector3 place = point(2);
+        return m_kinds == Kinds::Aligned ? Vector3((2 * place).array().round() / 2) : place;
     }
     StartHint makeHint(const Surface& surface) {
         switch (pick(6)) {
@@ -74,7 +76,7 @@ private:
                 return {};
         }
     }
-    Vec3 makeFactors() { return {uniform(0.2, 1), uniform(0.2, 1), uniform(0.2, 1)}; }
+    Vector3 makeFactors() { return {uniform(0.2, 1), uniform(0.2, 1), uniform(0.2, 1)}; }
 
     SurfacePtr makeBasic(double size) {
         switch (pick(4)) {
@@ -97,7 +99,7 @@ private:
             case 1:
                 return makeForm<Cylinder, ParametricCylinder>(isParametric, size);
             case 2:
-                return makeForm<Ellipsoid, ParametricEllipsoid>(isParametric, Vec3(size * makeFactors()));
+                return makeForm<Ellipsoid, ParametricEllipsoid>(isParametric, Vector3(size * makeFactors()));
             case 3:
                 return makeForm<Torus, ParametricTorus>(isParametric, size, size * uniform(0.05, 0.95));
             case 4:
@@ -115,7 +117,7 @@ private:
             case 8:
                 return makeForm<Cone, ParametricCone>(isParametric, uniform(0.1, 1.2), size);
             case 9:
-                return makeForm<Plane, ParametricPlane>(isParametric, size);
+                return makeForm<HalfSpace, ParametricHalfSpace>(isParametric, size);
             case 10:
                 return makeScaled(isParametric, Torus(size, size * uniform(0.05, 0.95)), makeFactors());
             case 11:
@@ -140,7 +142,7 @@ private:
         return std::make_shared<Implicit>(arguments...);
     }
 
-    static SurfacePtr makeScaled(bool isParametric, const Torus& torus, const Vec3& factors) {
+    static SurfacePtr makeScaled(bool isParametric, const Torus& torus, const Vector3& factors) {
         if (!isParametric) return std::make_shared<ScaledImplicitSurface<Torus>>(torus, factors);
         const ParametricTorus base(torus.getRingRadius(), torus.getTubeRadius());
         return std::make_shared<ScaledParametricSurface<ParametricTorus>>(base, factors);
@@ -148,19 +150,19 @@ private:
 
     template <class Patch>
     static SurfacePtr makeScaledPatch(const Patch& patch, double size) {
-        return std::make_shared<ScaledParametricSurface<Patch>>(patch, Vec3::Constant(size));
+        return std::make_shared<ScaledParametricSurface<Patch>>(patch, Vector3::Constant(size));
     }
 
     static SurfacePtr makeSheet() {
         const auto sheet = [](auto u, auto v) {
             return std::array<decltype(u), 3>{u + 0.1 * v, v - 0.1 * u * u, 0.3 * sin(u) * cos(v)};
         };
-        const ParameterDomain square{Vec2(-1.2, -1.2), Vec2(1.2, 1.2)};
+        const ParameterDomain square{Vector2(-1.2, -1.2), Vector2(1.2, 1.2)};
         return std::make_shared<ParametricFunctionSurface>(makeParametricSurface("sheet", 0.5, square, sheet));
     }
 
-    Mat3 makeRotation() {
-        if (pick(5) == 0 || m_kinds == Kinds::Aligned) return Mat3::Identity();  // axes along ground's: exact zeros
+    Matrix3 makeRotation() {
+        if (pick(5) == 0 || m_kinds == Kinds::Aligned) return Matrix3::Identity();  // axes along ground's: exact zeros
         return Eigen::Quaterniond(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1) + 2)
             .normalized()
             .toRotationMatrix();
@@ -179,7 +181,7 @@ private:
                 pose.X_GE[e].p = 0.5 * (pose.X_GE[0].p + pose.X_GE[last].p);
                 break;  // chord through the center
             case 3:
-                pose.X_GE[0].p = pose.X_GE[e] * Vec3(0, 0, 1), pose.X_GE[last].p = pose.X_GE[e] * Vec3(0, 0, -1);
+                pose.X_GE[0].p = pose.X_GE[e] * Vector3(0, 0, 1), pose.X_GE[last].p = pose.X_GE[e] * Vector3(0, 0, -1);
                 break;
             case 4:
                 pose.X_GE[e] = pose.X_GE[1 + pick(last - 1)];

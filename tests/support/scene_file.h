@@ -21,12 +21,12 @@ namespace tautline::testing {
 
 /** amp sin(2 pi freq t + phase) for x, y, z or three angles. */
 struct Wave3 {
-    Vec3 amplitude = Vec3::Zero(), frequency = Vec3::Zero(), phase = Vec3::Zero();
+    Vector3 amplitude = Vector3::Zero(), frequency = Vector3::Zero(), phase = Vector3::Zero();
 
-    Vec3 calcValue(double t) const {
+    Vector3 calcValue(double t) const {
         return amplitude.array() * (2 * kPi * frequency.array() * t + phase.array()).sin();
     }
-    Vec3 calcRate(double t) const {
+    Vector3 calcRate(double t) const {
         return 2 * kPi * frequency.array() * amplitude.array() *
                (2 * kPi * frequency.array() * t + phase.array()).cos();
     }
@@ -36,12 +36,12 @@ struct SceneObstacle {
     std::string kind;
     std::vector<double> params;
     Pose meanPose;
-    Vec3 hint_S = Vec3::Zero();
+    Vector3 hint_S = Vector3::Zero();
     Wave3 translation, rotation;
 };
 
 struct SegmentTruth {
-    Vec3 P = Vec3::Zero(), Q = Vec3::Zero();
+    Vector3 P = Vector3::Zero(), Q = Vector3::Zero();
     double arc = 0;
 };
 
@@ -54,7 +54,7 @@ struct EventTruth {
 struct Scene {
     std::string id, family, difficulty;
     std::vector<std::string> tags;
-    Vec3 origin = Vec3::Zero(), insertion = Vec3::Zero();
+    Vector3 origin = Vector3::Zero(), insertion = Vector3::Zero();
     Wave3 originWave, insertionWave;
     std::vector<SceneObstacle> obstacles;
     // Answers: one entry for a static scene, one per step for a moving one; empty where none are listed.
@@ -69,8 +69,8 @@ struct Scene {
     bool hasAnswer() const { return !length.empty(); }
 };
 
-inline Vec3 toVec3(const nlohmann::json& json) {
-    return Vec3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
+inline Vector3 toVec3(const nlohmann::json& json) {
+    return Vector3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
 }
 
 inline Wave3 toWave(const nlohmann::json& json) {
@@ -86,7 +86,7 @@ inline Wave3 toWave(const nlohmann::json& json) {
 inline std::shared_ptr<const Surface> makeSurface(const std::string& kind, const std::vector<double>& p) {
     if (kind == "sphere") return std::make_shared<Sphere>(p.at(0));
     if (kind == "cylinder") return std::make_shared<Cylinder>(p.at(0));
-    if (kind == "ellipsoid") return std::make_shared<Ellipsoid>(Vec3(p.at(0), p.at(1), p.at(2)));
+    if (kind == "ellipsoid") return std::make_shared<Ellipsoid>(Vector3(p.at(0), p.at(1), p.at(2)));
     if (kind == "torus") return std::make_shared<Torus>(p.at(0), p.at(1));
     throw InvalidInput("scene file: unknown obstacle kind '" + kind + "'");
 }
@@ -175,38 +175,38 @@ inline PathProblem makeProblem(const Scene& scene, bool withHints) {
     for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
         const SceneObstacle& obstacle = scene.obstacles[i];
         problem.addObstacle(obstacle.kind + std::to_string(i), makeSurface(obstacle.kind, obstacle.params),
-                            withHints ? std::optional<Vec3>(obstacle.hint_S) : std::nullopt);
+                            withHints ? std::optional<Vector3>(obstacle.hint_S) : std::nullopt);
     }
     problem.addPoint("insertion");
     return problem;
 }
 
-inline Mat3 makeBodyFixedXyz(const Vec3& a) {
-    return (Eigen::AngleAxisd(a[0], Vec3::UnitX()) * Eigen::AngleAxisd(a[1], Vec3::UnitY()) *
-            Eigen::AngleAxisd(a[2], Vec3::UnitZ()))
+inline Matrix3 makeBodyFixedXyz(const Vector3& a) {
+    return (Eigen::AngleAxisd(a[0], Vector3::UnitX()) * Eigen::AngleAxisd(a[1], Vector3::UnitY()) *
+            Eigen::AngleAxisd(a[2], Vector3::UnitZ()))
         .toRotationMatrix();
 }
 
 inline void calcPose(const Scene& scene, double t, PathPose& pose) {
     pose.X_GE.clear();
-    pose.X_GE.emplace_back(Vec3(scene.origin + scene.originWave.calcValue(t)));
+    pose.X_GE.emplace_back(Vector3(scene.origin + scene.originWave.calcValue(t)));
     for (const SceneObstacle& o : scene.obstacles)
         pose.X_GE.emplace_back(o.meanPose.R * makeBodyFixedXyz(o.rotation.calcValue(t)),
                                o.meanPose.p + o.translation.calcValue(t));
-    pose.X_GE.emplace_back(Vec3(scene.insertion + scene.insertionWave.calcValue(t)));
+    pose.X_GE.emplace_back(Vector3(scene.insertion + scene.insertionWave.calcValue(t)));
 }
 
 inline void calcVelocity(const Scene& scene, double t, std::vector<SpatialVelocity>& V_GE) {
     V_GE.clear();
-    V_GE.push_back({Vec3::Zero(), scene.originWave.calcRate(t)});
+    V_GE.push_back({Vector3::Zero(), scene.originWave.calcRate(t)});
     for (const SceneObstacle& o : scene.obstacles) {
         // Body-fixed X-Y-Z: w = a0' x + a1' Rx y + a2' Rx Ry z, carried by the mean rotation.
-        const Vec3 a = o.rotation.calcValue(t), aDot = o.rotation.calcRate(t);
-        const Mat3 Rx = makeBodyFixedXyz(Vec3(a[0], 0, 0)), Rxy = makeBodyFixedXyz(Vec3(a[0], a[1], 0));
-        const Vec3 w = aDot[0] * Vec3::UnitX() + aDot[1] * Rx.col(1) + aDot[2] * Rxy.col(2);
+        const Vector3 a = o.rotation.calcValue(t), aDot = o.rotation.calcRate(t);
+        const Matrix3 Rx = makeBodyFixedXyz(Vector3(a[0], 0, 0)), Rxy = makeBodyFixedXyz(Vector3(a[0], a[1], 0));
+        const Vector3 w = aDot[0] * Vector3::UnitX() + aDot[1] * Rx.col(1) + aDot[2] * Rxy.col(2);
         V_GE.push_back({o.meanPose.R * w, o.translation.calcRate(t)});
     }
-    V_GE.push_back({Vec3::Zero(), scene.insertionWave.calcRate(t)});
+    V_GE.push_back({Vector3::Zero(), scene.insertionWave.calcRate(t)});
 }
 
 }  // namespace tautline::testing

@@ -19,18 +19,18 @@ public:
     double logUniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
     int pick(int count) { return static_cast<int>(m_engine() % static_cast<unsigned>(count)); }
     bool flip() { return pick(2) == 1; }
-    Vec3 vector(double extent) {
+    Vector3 vector(double extent) {
         const double x = uniform(-extent, extent), y = uniform(-extent, extent);
         return {x, y, uniform(-extent, extent)};
     }
-    Vec3 unitVector() {
-        Vec3 v = vector(1);
+    Vector3 unitVector() {
+        Vector3 v = vector(1);
         while (v.norm() < 0.1 || v.norm() > 1) v = vector(1);
         return v.normalized();
     }
     Pose pose(double extent) {
         const double angle = uniform(-kPi, kPi);
-        const Mat3 R = Eigen::AngleAxisd(angle, unitVector()).toRotationMatrix();
+        const Matrix3 R = Eigen::AngleAxisd(angle, unitVector()).toRotationMatrix();
         return {R, vector(extent)};
     }
 

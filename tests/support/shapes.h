@@ -28,8 +28,8 @@ inline void PrintTo(const Shape& shape, std::ostream* out) {
 inline std::vector<Shape> makeShapes(double scale = 1) {
     return {{"Sphere", std::make_shared<Sphere>(0.7 * scale), 0.8 * scale},
             {"Cylinder", std::make_shared<Cylinder>(0.35 * scale), 0.5 * scale},
-            {"Ellipsoid", std::make_shared<Ellipsoid>(Vec3(0.5, 0.9, 1.4) * scale), 1.4 * scale},
-            {"FlatEllipsoid", std::make_shared<Ellipsoid>(Vec3(1.0, 0.8, 0.2) * scale), 1.0 * scale},
+            {"Ellipsoid", std::make_shared<Ellipsoid>(Vector3(0.5, 0.9, 1.4) * scale), 1.4 * scale},
+            {"FlatEllipsoid", std::make_shared<Ellipsoid>(Vector3(1.0, 0.8, 0.2) * scale), 1.0 * scale},
             {"Torus", std::make_shared<Torus>(3.0 * scale, 1.0 * scale), 3.5 * scale},
             {"ThinTorus", std::make_shared<Torus>(0.5 * scale, 0.05 * scale), 0.5 * scale}};
 }
@@ -43,8 +43,9 @@ inline GeodesicStart makeRandomStart(const Shape& shape, Random& random) {
     return start;
 }
 
-inline Geodesic shoot(const Surface& surface, GeodesicStart start, double length, const GeodesicOptions& options = {}) {
-    Geodesic geodesic;
+inline ShotGeodesic shoot(const Surface& surface, GeodesicStart start, double length,
+                          const ShootingOptions& options = {}) {
+    ShotGeodesic geodesic;
     start.length = length;
     surface.shootGeodesic(start, options, geodesic);
     return geodesic;

@@ -18,30 +18,30 @@ namespace tautline::testing {
 struct StringAboutAxis {
     double turning = 0;
     bool isTouching = false;
-    double length = 0;           ///< [m]
-    Vec3 P, Q;                   ///< ends of the arc; while it does not touch, both the point nearest to the axis
-    Vec3 middle = Vec3::Zero();  ///< of the arc, or the point nearest to the axis
+    double length = 0;                 ///< [m]
+    Vector3 P, Q;                      ///< ends of the arc; while it does not touch, both the point nearest to the axis
+    Vector3 middle = Vector3::Zero();  ///< of the arc, or the point nearest to the axis
 };
 
 /** From the azimuth of A to that of B, in (-pi, pi]: the short way round. */
-inline double calcShortTurning(const Vec3& A, const Vec3& B) {
+inline double calcShortTurning(const Vector3& A, const Vector3& B) {
     return std::atan2(A.x() * B.y() - A.y() * B.x(), A.x() * B.x() + A.y() * B.y());
 }
 
-inline Vec3 makeOnCylinder(double radius, double azimuth, double z) {
+inline Vector3 makeOnCylinder(double radius, double azimuth, double z) {
     return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
 }
 
 /** The point of the segment A B nearest to the z axis. */
-inline Vec3 findNearestToAxis(const Vec3& A, const Vec3& B) {
-    const Vec2 step = (B - A).head<2>();
+inline Vector3 findNearestToAxis(const Vector3& A, const Vector3& B) {
+    const Vector2 step = (B - A).head<2>();
     const double along = step.squaredNorm() > 0 ? -A.head<2>().dot(step) / step.squaredNorm() : 0.0;
     return A + std::clamp(along, 0.0, 1.0) * (B - A);
 }
 
 /** The taut string that turns by `turning`, which leads from A to B and is below pi where the string is straight.
 @param A, B   outside the cylinder of this radius about z */
-inline StringAboutAxis calcStringAboutAxis(double radius, const Vec3& A, const Vec3& B, double turning) {
+inline StringAboutAxis calcStringAboutAxis(double radius, const Vector3& A, const Vector3& B, double turning) {
     const double rA = A.head<2>().norm(), rB = B.head<2>().norm(), rise = B.z() - A.z();
     const double toTangentA = std::acos(radius / rA), toTangentB = std::acos(radius / rB);
     const double arc = std::abs(turning) - toTangentA - toTangentB, sense = turning < 0 ? -1 : 1;
@@ -67,7 +67,7 @@ inline StringAboutAxis calcStringAboutAxis(double radius, const Vec3& A, const V
 }
 
 /** The short way round first. */
-inline std::array<StringAboutAxis, 2> calcBothWays(double radius, const Vec3& A, const Vec3& B) {
+inline std::array<StringAboutAxis, 2> calcBothWays(double radius, const Vector3& A, const Vector3& B) {
     const double turning = calcShortTurning(A, B);
     return {calcStringAboutAxis(radius, A, B, turning),
             calcStringAboutAxis(radius, A, B, turning - std::copysign(2 * kPi, turning))};
@@ -75,27 +75,28 @@ inline std::array<StringAboutAxis, 2> calcBothWays(double radius, const Vec3& A,
 
 /** PassOnSide: of the two ways round, the shorter one whose middle lies on the side; none, where neither does. The part
 of the direction along the axis does not count: along it, one place is as good as another. */
-inline std::optional<StringAboutAxis> findStringOnSide(double radius, const Vec3& A, const Vec3& B, const Vec3& side) {
+inline std::optional<StringAboutAxis> findStringOnSide(double radius, const Vector3& A, const Vector3& B,
+                                                       const Vector3& side) {
     for (const StringAboutAxis& way : calcBothWays(radius, A, B))
         if (side.head<2>().dot(way.middle.head<2>()) >= 0) return way;
     return std::nullopt;
 }
 
 /** WindAround: the string whose turning is the one nearest to so many full turns. */
-inline StringAboutAxis calcWoundString(double radius, const Vec3& A, const Vec3& B, double turns) {
+inline StringAboutAxis calcWoundString(double radius, const Vector3& A, const Vector3& B, double turns) {
     const double direct = calcShortTurning(A, B);
     return calcStringAboutAxis(radius, A, B, direct + 2 * kPi * std::round(turns - direct / (2 * kPi)));
 }
 
-inline double calcDistanceToSegment(const Vec3& p, const Vec3& A, const Vec3& B) {
+inline double calcDistanceToSegment(const Vector3& p, const Vector3& A, const Vector3& B) {
     const double length2 = (B - A).squaredNorm();
     const double along = length2 > 0 ? std::clamp((p - A).dot(B - A) / length2, 0.0, 1.0) : 0.0;
     return (p - A - along * (B - A)).norm();
 }
 
 /** How near the string from A to B passes a point. */
-inline double calcDistanceToString(const StringAboutAxis& string, double radius, const Vec3& A, const Vec3& B,
-                                   const Vec3& p) {
+inline double calcDistanceToString(const StringAboutAxis& string, double radius, const Vector3& A, const Vector3& B,
+                                   const Vector3& p) {
     constexpr int kSteps = 200;
     double nearest = std::min(calcDistanceToSegment(p, A, string.P), calcDistanceToSegment(p, string.Q, B));
     if (!string.isTouching) return nearest;

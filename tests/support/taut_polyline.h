@@ -18,13 +18,13 @@ struct Body {
     const Surface* surface;
     Pose X_GS;
 
-    double calcHeight(const Vec3& p_G) const { return surface->calcHeight(X_GS.shiftBack(p_G)); }
+    double calcHeight(const Vector3& p_G) const { return surface->calcHeight(X_GS.shiftBack(p_G)); }
     /** The nearest surface point, nearly: the foot of the steepest descent, moved along the surface by what is left of
     the way to p that is not normal there. */
-    Vec3 findNearestPoint(const Vec3& p_G) const {
+    Vector3 findNearestPoint(const Vector3& p_G) const {
         constexpr int kCorrections = 2;
-        const Vec3 p = X_GS.shiftBack(p_G);
-        Vec3 x = surface->findSurfacePoint(p).p, N;
+        const Vector3 p = X_GS.shiftBack(p_G);
+        Vector3 x = surface->findSurfacePoint(p).p, N;
         for (int i = 0; i < kCorrections; ++i) {
             surface->calcHeightAndNormal(x, N);
             x = surface->findSurfacePoint(p - N.dot(p - x) * N).p;
@@ -42,7 +42,8 @@ public:
 
     /** @param course   from the first fixed end to the last, clear of the bodies or nearly so
     @param count    of springs */
-    TautPolyline(std::vector<Body> bodies, const std::vector<Vec3>& course, int count) : m_bodies(std::move(bodies)) {
+    TautPolyline(std::vector<Body> bodies, const std::vector<Vector3>& course, int count)
+        : m_bodies(std::move(bodies)) {
         lay(course, count);
     }
 
@@ -65,7 +66,7 @@ public:
         return length;
     }
 
-    const std::vector<Vec3>& getNodes() const { return m_nodes; }
+    const std::vector<Vector3>& getNodes() const { return m_nodes; }
 
     /** First and last node of each stretch that lies on a body, in order along the string. */
     std::vector<std::pair<int, int>> findStretches(int body) const {
@@ -80,7 +81,7 @@ public:
     }
 
 private:
-    void lay(const std::vector<Vec3>& course, int count) {
+    void lay(const std::vector<Vector3>& course, int count) {
         double length = 0;
         for (std::size_t i = 0; i + 1 < course.size(); ++i) length += (course[i + 1] - course[i]).norm();
         const double spring = length / count;
@@ -92,14 +93,14 @@ private:
                 passed += (course[leg + 1] - course[leg]).norm();
                 ++leg;
             }
-            const Vec3 direction = (course[leg + 1] - course[leg]).normalized();
+            const Vector3 direction = (course[leg + 1] - course[leg]).normalized();
             m_nodes.push_back(keepOutside(course[leg] + (i * spring - passed) * direction));
         }
         m_nodes.push_back(course.back());
     }
 
     /** Onto the surface of the body that it is in; of the next one, if it is then in that. */
-    Vec3 keepOutside(Vec3 p) const {
+    Vector3 keepOutside(Vector3 p) const {
         constexpr int kMaxRounds = 10;
         for (int round = 0; round < kMaxRounds; ++round) {
             bool isOutside = true;
@@ -115,9 +116,9 @@ private:
 
     /** Towards the middle of its neighbors and beyond it, or only as far where that does not pay. @return the move */
     double moveNode(std::size_t i, double factor) {
-        const Vec3 middle = 0.5 * (m_nodes[i - 1] + m_nodes[i + 1]), old = m_nodes[i];
+        const Vector3 middle = 0.5 * (m_nodes[i - 1] + m_nodes[i + 1]), old = m_nodes[i];
         for (const double part : {factor, 1.0, 0.5, 0.1}) {
-            const Vec3 moved = keepOutside(old + part * (middle - old));
+            const Vector3 moved = keepOutside(old + part * (middle - old));
             // What two springs store grows with the distance from the middle between their ends.
             if (!((moved - middle).squaredNorm() < (old - middle).squaredNorm())) continue;
             m_nodes[i] = moved;
@@ -127,7 +128,7 @@ private:
     }
 
     std::vector<Body> m_bodies;
-    std::vector<Vec3> m_nodes;
+    std::vector<Vector3> m_nodes;
 };
 
 /** What a string that has fallen taut over one body, in S, came to. */
@@ -139,9 +140,10 @@ struct TautString {
         Unknown,   ///< it still slides, or no arc was found to fit it
     };
     Kind kind = Kind::Unknown;
-    double length = kNaN;        ///< exact for Straight and OneArc
-    Vec3 middle = Vec3::Zero();  ///< half way along the arc; of a straight string the surface point it is nearest to
-    std::vector<Vec3> nodes;     ///< of the polyline
+    double length = kNaN;  ///< exact for Straight and OneArc
+    Vector3 middle =
+        Vector3::Zero();         ///< half way along the arc; of a straight string the surface point it is nearest to
+    std::vector<Vector3> nodes;  ///< of the polyline
 
     bool isSmooth() const { return kind == Kind::Straight || kind == Kind::OneArc; }
 };
@@ -149,17 +151,17 @@ struct TautString {
 /** Newton's method, differences for derivatives, on the one arc between two straight parts. */
 class OneArc {
 public:
-    OneArc(const Surface& surface, const Vec3& A, const Vec3& B) : m_surface(surface), m_A(A), m_B(B) {}
+    OneArc(const Surface& surface, const Vector3& A, const Vector3& B) : m_surface(surface), m_A(A), m_B(B) {}
 
     /** @param P, Q      near the arc's ends, `along` the arc's direction at P
     @param length    of the arc, nearly */
-    bool fit(const Vec3& P, const Vec3& along, double length) {
+    bool fit(const Vector3& P, const Vector3& along, double length) {
         m_start.point = m_surface.findSurfacePoint(P);
         m_start.tangent = m_surface.calcFrame(m_start.point, along).t;
         m_start.length = length;
         double error = calcError(m_start).norm();
         for (int i = 0; i < 60 && error > 1e-12; ++i) {
-            const Vec4 step = calcStep();
+            const Vector4 step = calcStep();
             double part = 1, next = kNaN;
             for (; part > 1e-4; part /= 2) {
                 next = calcError(calcChanged(part * step)).norm();
@@ -174,29 +176,29 @@ public:
 
     double getArcLength() const { return m_start.length; }
     double calcLength() const {
-        const Geodesic arc = shoot(m_start);
+        const ShotGeodesic arc = shoot(m_start);
         return (arc.P.x - m_A).norm() + m_start.length + (m_B - arc.Q.x).norm();
     }
-    Vec3 calcPoint(double part) const {
+    Vector3 calcPoint(double part) const {
         GeodesicStart start = m_start;
         start.length *= part;
         return shoot(start).Q.x;
     }
 
 private:
-    Geodesic shoot(const GeodesicStart& start) const {
-        Geodesic arc;
-        m_surface.shootGeodesic(start, GeodesicOptions{}, arc);
+    ShotGeodesic shoot(const GeodesicStart& start) const {
+        ShotGeodesic arc;
+        m_surface.shootGeodesic(start, ShootingOptions{}, arc);
         return arc;
     }
     /** Where the straight parts leave the plane of the tangent and the arc's direction: (A: N, B; B: N, B). */
-    Vec4 calcError(const GeodesicStart& start) const {
-        const Geodesic arc = shoot(start);
-        const Vec3 in = (arc.P.x - m_A).normalized(), out = (m_B - arc.Q.x).normalized();
+    Vector4 calcError(const GeodesicStart& start) const {
+        const ShotGeodesic arc = shoot(start);
+        const Vector3 in = (arc.P.x - m_A).normalized(), out = (m_B - arc.Q.x).normalized();
         return {in.dot(arc.P.N), in.dot(arc.P.B), out.dot(arc.Q.N), out.dot(arc.Q.B)};
     }
     /** By (forwards and sideways displacement of the start, turn of its direction, lengthening). */
-    GeodesicStart calcChanged(const Vec4& q) const {
+    GeodesicStart calcChanged(const Vector4& q) const {
         const DarbouxFrame frame = m_surface.calcFrame(m_start.point, m_start.tangent);
         GeodesicStart changed = m_start;
         changed.point = m_surface.calcDisplacedPoint(m_start.point, q[0] * frame.t + q[1] * frame.B);
@@ -205,30 +207,30 @@ private:
         changed.length += q[3];
         return changed;
     }
-    Vec4 calcStep() const {
+    Vector4 calcStep() const {
         const double size = m_surface.getSize();
-        const Vec4 scale(size, size, 1, size);
-        Mat4 jacobian;
+        const Vector4 scale(size, size, 1, size);
+        Matrix4 jacobian;
         for (int k = 0; k < 4; ++k) {
-            const Vec4 h = 1e-5 * scale[k] * Vec4::Unit(k);
+            const Vector4 h = 1e-5 * scale[k] * Vector4::Unit(k);
             jacobian.col(k) = (calcError(calcChanged(h)) - calcError(calcChanged(-h))) / 2e-5;
         }
-        Vec4 step = jacobian.fullPivLu().solve(-calcError(m_start));
+        Vector4 step = jacobian.fullPivLu().solve(-calcError(m_start));
         step *= std::min(1.0, 0.3 / step.cwiseAbs().maxCoeff());
         return step.cwiseProduct(scale);
     }
 
     const Surface& m_surface;
-    Vec3 m_A, m_B;
+    Vector3 m_A, m_B;
     GeodesicStart m_start;
 };
 
 /** Where on the segment it is lowest over the surface, of many samples. @return the height there */
-inline double findLowestSample(const Surface& surface, const Vec3& A, const Vec3& B, Vec3& lowest) {
+inline double findLowestSample(const Surface& surface, const Vector3& A, const Vector3& B, Vector3& lowest) {
     constexpr int kSamples = 400;
     double least = kInfinity;
     for (int i = 0; i <= kSamples; ++i) {
-        const Vec3 p = A + i * (B - A) / kSamples;
+        const Vector3 p = A + i * (B - A) / kSamples;
         const double height = surface.calcHeight(p);
         if (height < least) least = height, lowest = p;
     }
@@ -237,18 +239,18 @@ inline double findLowestSample(const Surface& surface, const Vec3& A, const Vec3
 
 /** The point of a convex surface that is nearest to the segment: steps along the surface towards it, from under its
 lowest place, which is another one where heights are not distances. */
-inline Vec3 findNearestPoint(const Surface& surface, const Vec3& A, const Vec3& B) {
-    const auto calcNearestOnSegment = [&](const Vec3& p) {
-        return Vec3(A + std::clamp((p - A).dot(B - A) / (B - A).squaredNorm(), 0.0, 1.0) * (B - A));
+inline Vector3 findNearestPoint(const Surface& surface, const Vector3& A, const Vector3& B) {
+    const auto calcNearestOnSegment = [&](const Vector3& p) {
+        return Vector3(A + std::clamp((p - A).dot(B - A) / (B - A).squaredNorm(), 0.0, 1.0) * (B - A));
     };
-    Vec3 lowest = A;
+    Vector3 lowest = A;
     findLowestSample(surface, A, B, lowest);
-    Vec3 nearest = surface.findSurfacePoint(lowest).p;
+    Vector3 nearest = surface.findSurfacePoint(lowest).p;
     double distance = (calcNearestOnSegment(nearest) - nearest).norm();
     for (double part = 1; part > 1e-9;) {
-        const Vec3 step = calcNearestOnSegment(nearest) - nearest;
-        const Vec3 N = surface.calcFrame(surface.findSurfacePoint(nearest), Vec3(1, 2, 3)).N;
-        const Vec3 next = surface.findSurfacePoint(nearest + part * (step - N.dot(step) * N)).p;
+        const Vector3 step = calcNearestOnSegment(nearest) - nearest;
+        const Vector3 N = surface.calcFrame(surface.findSurfacePoint(nearest), Vector3(1, 2, 3)).N;
+        const Vector3 next = surface.findSurfacePoint(nearest + part * (step - N.dot(step) * N)).p;
         const double reached = (calcNearestOnSegment(next) - next).norm();
         if (reached < distance) {
             nearest = next, distance = reached;
@@ -261,9 +263,9 @@ inline Vec3 findNearestPoint(const Surface& surface, const Vec3& A, const Vec3& 
 }
 
 /** The string from A to B that falls taut from the course over one body in its frame S, made of so many springs. */
-inline TautString findTautStringOf(int springs, const Surface& surface, const std::vector<Vec3>& course) {
+inline TautString findTautStringOf(int springs, const Surface& surface, const std::vector<Vector3>& course) {
     constexpr double kAccuracy = 3e-6, kClear = -1e-7;  // the last in sizes
-    const Vec3 A = course.front(), B = course.back();
+    const Vector3 A = course.front(), B = course.back();
     TautPolyline polyline({{&surface, Pose()}}, course, springs);
     TautString string;
     const bool isAtRest = polyline.relax(kAccuracy, 3000);
@@ -271,7 +273,7 @@ inline TautString findTautStringOf(int springs, const Surface& surface, const st
     string.length = polyline.calcLength();
     if (!isAtRest) return string;
     const auto stretches = polyline.findStretches(0);
-    Vec3 lowest;
+    Vector3 lowest;
     const double height = findLowestSample(surface, A, B, lowest);
     if (stretches.empty() && height > kClear * surface.getSize() && string.length < (1 + 1e-6) * (B - A).norm()) {
         string.kind = TautString::Kind::Straight;
@@ -284,8 +286,9 @@ inline TautString findTautStringOf(int springs, const Surface& surface, const st
         return string;
     }
     const int first = stretches.empty() ? 0 : stretches[0].first, last = stretches.empty() ? 0 : stretches[0].second;
-    const Vec3 P = stretches.empty() ? lowest : string.nodes[first];
-    const Vec3 along = stretches.empty() ? Vec3(B - A) : Vec3(string.nodes[first + 1] - string.nodes[first - 1]);
+    const Vector3 P = stretches.empty() ? lowest : string.nodes[first];
+    const Vector3 along =
+        stretches.empty() ? Vector3(B - A) : Vector3(string.nodes[first + 1] - string.nodes[first - 1]);
     double length = 0;
     for (int i = first; i < last; ++i) length += (string.nodes[i + 1] - string.nodes[i]).norm();
     OneArc arc(surface, A, B);
@@ -306,12 +309,12 @@ inline TautString findTautStringOf(int springs, const Surface& surface, const st
 /** Whether a string at rest returns when it is pushed sideways: one on a saddle slides off, however slowly it did. */
 inline bool isHeld(const Surface& surface, const TautString& string) {
     constexpr double kPush = 0.05, kSame = 1e-4;  // in sizes; of the length
-    std::vector<Vec3> pushed = string.nodes;
+    std::vector<Vector3> pushed = string.nodes;
     const std::size_t last = pushed.size() - 1;
     for (std::size_t i = 1; i < last; ++i) {
-        Vec3 N;
+        Vector3 N;
         surface.calcHeightAndNormal(string.nodes[i], N);
-        const Vec3 across = (string.nodes[i + 1] - string.nodes[i - 1]).cross(N).normalized();
+        const Vector3 across = (string.nodes[i + 1] - string.nodes[i - 1]).cross(N).normalized();
         const double part = static_cast<double>(i) / static_cast<double>(last);
         pushed[i] += kPush * surface.getSize() * std::sin(kPi * part) * across;
     }
@@ -320,7 +323,7 @@ inline bool isHeld(const Surface& surface, const TautString& string) {
 }
 
 /** The same, if it is held; one that does not come to rest may with more springs. */
-inline TautString findTautString(const Surface& surface, const std::vector<Vec3>& course, int springs = 120) {
+inline TautString findTautString(const Surface& surface, const std::vector<Vector3>& course, int springs = 120) {
     TautString string;
     for (const double factor : {1.0, 1.4, 2.0}) {
         string = findTautStringOf(static_cast<int>(factor * springs), surface, course);
@@ -331,9 +334,9 @@ inline TautString findTautString(const Surface& surface, const std::vector<Vec3>
 }
 
 /** Around a body about the z axis, from A out to `radius`, by `turning`, and in to B. */
-inline std::vector<Vec3> makeCourseAboutAxis(const Vec3& A, const Vec3& B, double turning, double radius) {
+inline std::vector<Vector3> makeCourseAboutAxis(const Vector3& A, const Vector3& B, double turning, double radius) {
     const int steps = std::max(8, static_cast<int>(std::ceil(std::abs(turning) * 6)));
-    std::vector<Vec3> course{A};
+    std::vector<Vector3> course{A};
     const double from = std::atan2(A.y(), A.x());
     for (int i = 0; i <= steps; ++i) {
         const double part = static_cast<double>(i) / steps, azimuth = from + part * turning;
@@ -344,17 +347,17 @@ inline std::vector<Vec3> makeCourseAboutAxis(const Vec3& A, const Vec3& B, doubl
 }
 
 /** From A out to `radius` from the origin, by great circles over the direction `over`, and in to B. */
-inline std::vector<Vec3> makeCourseOver(const Vec3& A, const Vec3& B, const Vec3& over, double radius) {
+inline std::vector<Vector3> makeCourseOver(const Vector3& A, const Vector3& B, const Vector3& over, double radius) {
     constexpr int kSteps = 12;
-    const auto addArc = [radius](const Vec3& from, const Vec3& to, std::vector<Vec3>& course) {
+    const auto addArc = [radius](const Vector3& from, const Vector3& to, std::vector<Vector3>& course) {
         for (int i = 0; i <= kSteps; ++i) {
             const double part = static_cast<double>(i) / kSteps;
             const double angle = std::acos(std::clamp(from.dot(to), -1.0, 1.0));
-            const Vec3 mixed = std::sin((1 - part) * angle) * from + std::sin(part * angle) * to;
+            const Vector3 mixed = std::sin((1 - part) * angle) * from + std::sin(part * angle) * to;
             course.push_back(radius * mixed.normalized());
         }
     };
-    std::vector<Vec3> course{A};
+    std::vector<Vector3> course{A};
     addArc(A.normalized(), over.normalized(), course);
     addArc(over.normalized(), B.normalized(), course);
     course.push_back(B);

@@ -17,7 +17,7 @@ inline TriangleMesh makeBallMesh(int splits) {
     mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
                       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-    for (Vec3& point : mesh.points) point.normalize();
+    for (Vector3& point : mesh.points) point.normalize();
     for (int split = 0; split < splits; ++split) {
         std::map<std::pair<int, int>, int> middles;
         const auto getMiddle = [&](int a, int b) {
@@ -38,8 +38,8 @@ inline TriangleMesh makeBallMesh(int splits) {
     return mesh;
 }
 
-inline TriangleMesh scaleMesh(TriangleMesh mesh, const Vec3& factors, const Vec3& shift = Vec3::Zero()) {
-    for (Vec3& point : mesh.points) point = factors.cwiseProduct(point) + shift;
+inline TriangleMesh scaleMesh(TriangleMesh mesh, const Vector3& factors, const Vector3& shift = Vector3::Zero()) {
+    for (Vector3& point : mesh.points) point = factors.cwiseProduct(point) + shift;
     return mesh;
 }
 
@@ -71,7 +71,7 @@ inline TriangleMesh makeTorusMesh(double ringRadius, double tubeRadius, int numV
     const int numU = static_cast<int>(std::lround(numV * ringRadius / tubeRadius));
     return makeRingMesh(numU, numV, [=](double u, double v) {
         const double rho = ringRadius + tubeRadius * std::cos(2 * kPi * v);
-        return Vec3(rho * std::cos(2 * kPi * u), rho * std::sin(2 * kPi * u), tubeRadius * std::sin(2 * kPi * v));
+        return Vector3(rho * std::cos(2 * kPi * u), rho * std::sin(2 * kPi * u), tubeRadius * std::sin(2 * kPi * v));
     });
 }
 
@@ -79,13 +79,13 @@ inline TriangleMesh makeTorusMesh(double ringRadius, double tubeRadius, int numV
 a ridge: as large and as finely scanned as a humerus. @param fineness   1: edges of some 6 mm */
 inline TriangleMesh makeBoneMesh(int fineness = 1) {
     TriangleMesh mesh = makeBallMesh(3 + fineness);
-    for (Vec3& point : mesh.points) {
+    for (Vector3& point : mesh.points) {
         const double z = 0.15 * point.z(), along = point.z(), around = std::atan2(point.y(), point.x());
         const double out = std::hypot(point.x(), point.y());
         const double round = std::pow(1 - std::pow(along, 8), 0.5);  // a tube with rounded ends
         const double radius = 0.012 * (1 + std::pow(along, 4)) * (1 + 0.15 * std::cos(2 * around + 2 * along));
         const double scale = out > 0 ? round * radius / out : 0;
-        point = Vec3(scale * point.x() + 0.01 * along * along, scale * point.y(), z);
+        point = Vector3(scale * point.x() + 0.01 * along * along, scale * point.y(), z);
     }
     return mesh;
 }

@@ -24,7 +24,7 @@ public:
     WeaveScene(Kind kind, int count) : m_kind(kind), m_count(count) {
         m_problem.addPoint("origin");
         for (int i = 0; i < count; ++i)
-            m_problem.addObstacle("obstacle" + std::to_string(i), makeSurface(), Vec3(0, 0.4 * getSide(i), 0));
+            m_problem.addObstacle("obstacle" + std::to_string(i), makeSurface(), Vector3(0, 0.4 * getSide(i), 0));
         m_problem.addPoint("insertion");
     }
 
@@ -32,16 +32,16 @@ public:
 
     void calcPose(double t, PathPose& pose) const {
         pose.X_GE.resize(m_count + 2);
-        pose.X_GE.front() = Pose(Vec3(-1, 0, 0));
-        pose.X_GE.back() = Pose(Vec3(m_count, 0, 0));
+        pose.X_GE.front() = Pose(Vector3(-1, 0, 0));
+        pose.X_GE.back() = Pose(Vector3(m_count, 0, 0));
         for (int i = 0; i < m_count; ++i) {
             const double phi = kPhase * i, w = kOmega;
             const double center = (m_kind == Kind::Cylinders ? 0.25 : -0.25) * getSide(i);
             const double a = 0.1 * std::sin(w * t + phi), b = 0.1 * std::sin(1.1 * w * t + 2 * phi);
-            const Mat3 R =
-                (Eigen::AngleAxisd(a, Vec3::UnitX()) * Eigen::AngleAxisd(b, Vec3::UnitY())).toRotationMatrix();
-            const Vec3 p(i + 0.05 * std::sin(w * t + phi), center + 0.05 * std::sin(1.3 * w * t + 2 * phi),
-                         0.05 * std::sin(0.7 * w * t + 3 * phi));
+            const Matrix3 R =
+                (Eigen::AngleAxisd(a, Vector3::UnitX()) * Eigen::AngleAxisd(b, Vector3::UnitY())).toRotationMatrix();
+            const Vector3 p(i + 0.05 * std::sin(w * t + phi), center + 0.05 * std::sin(1.3 * w * t + 2 * phi),
+                            0.05 * std::sin(0.7 * w * t + 3 * phi));
             pose.X_GE[i + 1] = Pose(R, p);
         }
     }
@@ -52,10 +52,10 @@ public:
             const double phi = kPhase * i, w = kOmega;
             const double a = 0.1 * std::sin(w * t + phi);
             const double aDot = 0.1 * w * std::cos(w * t + phi), bDot = 0.11 * w * std::cos(1.1 * w * t + 2 * phi);
-            V_GE[i + 1].w = Vec3(aDot, std::cos(a) * bDot, std::sin(a) * bDot);  // a' x + b' Rx y
+            V_GE[i + 1].w = Vector3(aDot, std::cos(a) * bDot, std::sin(a) * bDot);  // a' x + b' Rx y
             V_GE[i + 1].v = 0.05 * w *
-                            Vec3(std::cos(w * t + phi), 1.3 * std::cos(1.3 * w * t + 2 * phi),
-                                 0.7 * std::cos(0.7 * w * t + 3 * phi));
+                            Vector3(std::cos(w * t + phi), 1.3 * std::cos(1.3 * w * t + 2 * phi),
+                                    0.7 * std::cos(0.7 * w * t + 3 * phi));
         }
     }
 
@@ -69,8 +69,8 @@ public:
         for (int i = 0; i < m_count; ++i) {
             GeodesicStart& start = path.contacts[i + 1].start;
             path.contacts[i + 1].isTouched = true;
-            start.point.p = 0.4 * Vec3(-std::sin(half), getSide(i) * std::cos(half), 0);
-            start.tangent = Vec3(std::cos(half), getSide(i) * std::sin(half), 0);
+            start.point.p = 0.4 * Vector3(-std::sin(half), getSide(i) * std::cos(half), 0);
+            start.tangent = Vector3(std::cos(half), getSide(i) * std::sin(half), 0);
             start.length = 2 * half * 0.4;
         }
         return path;
@@ -84,7 +84,7 @@ private:
     std::shared_ptr<const Surface> makeSurface() const {
         if (m_kind == Kind::Cylinders) return std::make_shared<Cylinder>(0.4);
         if (m_kind == Kind::Spheres) return std::make_shared<Sphere>(0.4);
-        return std::make_shared<Ellipsoid>(Vec3(0.45, 0.4, 0.9));
+        return std::make_shared<Ellipsoid>(Vector3(0.45, 0.4, 0.9));
     }
 
     Kind m_kind;

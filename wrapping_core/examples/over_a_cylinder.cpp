@@ -15,12 +15,12 @@ int main() {
     problem.addPoint("insertion");
 
     PathPose pose;  // of each element in ground; a point is where its origin is
-    pose.X_GE = {Pose(Vec3(-0.1, 0, 0)), Pose(Vec3(0, -0.01, 0)), Pose(Vec3(0.1, 0, 0.05))};
+    pose.X_GE = {Pose(Vector3(-0.1, 0, 0)), Pose(Vector3(0, -0.01, 0)), Pose(Vector3(0.1, 0, 0.05))};
     const PathSolution path = solvePath(problem, pose);
     std::cout << explainStatus(problem, pose, path) << "\n";
 
     std::vector<SpatialVelocity> V_GE(3);
-    V_GE[cylinder].v = Vec3(0, 0.2, 0);
+    V_GE[cylinder].v = Vector3(0, 0.2, 0);
     std::vector<SpatialForce> F_GE;
     calcUnitForces(path, pose, F_GE);
     std::cout << "length " << path.length << " m, rate " << calcLengthRate(path, pose, V_GE) << " m/s, at 100 N of "

@@ -31,10 +31,10 @@ double solveWithCablePath() {
 
 double solveWithTautline() {
     Pendulum pendulum;
-    tautline::CableSubsystem cables(pendulum.system);
+    tautline::CablePathSubsystem cables(pendulum.system);
     tautline::Cable cable(cables, pendulum.matter.Ground(), Vec3(-0.2, 0.1, 0), pendulum.bob, Vec3(0, 0.1, 0));
     cable.addObstacle(pendulum.matter.Ground(), Transform(), std::make_shared<tautline::Cylinder>(0.05),
-                      tautline::PassOnSide{tautline::Vec3(1, 1, 0)});
+                      tautline::PassOnSide{tautline::Vector3(1, 1, 0)});
     tautline::ElasticStringForce spring(pendulum.forces, cable, 0.3, 100, 0.1);
     const State state = pendulum.system.realizeTopology();
     pendulum.system.realize(state, Stage::Velocity);

@@ -16,16 +16,16 @@ int main() {
         }));
 
     // Points near it and directions along it, for the thirteen laws. What is broken comes as sentences.
-    const std::vector<SurfaceLawSample> samples{{Vec3(0, 0.05, 0.01), Vec3::UnitX(), 0.03},
-                                                {Vec3(0.03, -0.04, 0), Vec3::UnitZ(), 0.03}};
+    const std::vector<SurfaceLawSample> samples{{Vector3(0, 0.05, 0.01), Vector3::UnitX(), 0.03},
+                                                {Vector3(0.03, -0.04, 0), Vector3::UnitZ(), 0.03}};
     for (const std::string& broken : checkSurfaceLaws(*bean, samples)) std::cout << broken << "\n";
 
     PathProblem problem;
     problem.addPoint("origin");
-    problem.addObstacle("bean", bean, PassOnSide{Vec3::UnitY()});
+    problem.addObstacle("bean", bean, PassOnSide{Vector3::UnitY()});
     problem.addPoint("insertion");
     PathPose pose;
-    pose.X_GE = {Pose(Vec3(-0.1, -0.01, 0)), Pose(), Pose(Vec3(0.1, 0.01, 0.02))};
+    pose.X_GE = {Pose(Vector3(-0.1, -0.01, 0)), Pose(), Pose(Vector3(0.1, 0.01, 0.02))};
     const PathSolution path = solvePath(problem, pose);
     std::cout << explainStatus(problem, pose, path) << ", " << path.length << " m\n";
     return path.status == PathStatus::Solved ? 0 : 1;

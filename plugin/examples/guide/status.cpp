@@ -10,12 +10,12 @@ using namespace tautline;
 int main() {
     PathProblem problem;
     problem.addPoint("origin");
-    const int ball = problem.addObstacle("ball", std::make_shared<Sphere>(0.05), PassOnSide{Vec3::UnitY()});
+    const int ball = problem.addObstacle("ball", std::make_shared<Sphere>(0.05), PassOnSide{Vector3::UnitY()});
     problem.addPoint("insertion");
     PathPose pose;
-    pose.X_GE = {Pose(Vec3(-0.1, 0, 0)), Pose(), Pose(Vec3(0.1, 0, 0))};
+    pose.X_GE = {Pose(Vector3(-0.1, 0, 0)), Pose(), Pose(Vector3(0.1, 0, 0))};
     PathSolver solver;
-    for (const Vec3& end : {Vec3(0.1, 0, 0), Vec3(0.03, 0, 0), Vec3(0.1, -0.2, 0)}) {
+    for (const Vector3& end : {Vector3(0.1, 0, 0), Vector3(0.03, 0, 0), Vector3(0.1, -0.2, 0)}) {
         pose.X_GE.back().p = end;
         PathSolution path;  // empty: a cold start
         solver.solve(problem, pose, path);

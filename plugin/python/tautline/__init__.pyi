@@ -43,7 +43,7 @@ class EllipticCylinder(Surface):
 class Paraboloid(Surface):
     def __init__(self, a: float, b: float) -> None: ...
 
-class Plane(Surface):
+class HalfSpace(Surface):
     def __init__(self, size: float) -> None: ...
 
 class Cone(Surface):

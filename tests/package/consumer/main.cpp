@@ -21,10 +21,10 @@ const auto kCylinder = std::make_shared<Cylinder>(0.5);
 double calcLength() {
     PathProblem problem;
     problem.addPoint("origin");
-    problem.addObstacle("cylinder", kCylinder, Vec3(0.5, 0, 0));
+    problem.addObstacle("cylinder", kCylinder, Vector3(0.5, 0, 0));
     problem.addPoint("insertion");
     PathPose pose;
-    pose.X_GE = {Pose(Vec3(-1, -0.5, 0)), Pose(), Pose(Vec3(-1, 0.5, 0))};
+    pose.X_GE = {Pose(Vector3(-1, -0.5, 0)), Pose(), Pose(Vector3(-1, 0.5, 0))};
     return solvePath(problem, pose).length;
 }
 
@@ -32,7 +32,7 @@ double calcLength() {
 double calcLengthInSimbody() {
     SimTK::MultibodySystem system;
     SimTK::SimbodyMatterSubsystem matter(system);
-    CableSubsystem cables(system);
+    CablePathSubsystem cables(system);
     Cable cable(cables, matter.Ground(), SimTK::Vec3(-1, -0.5, 0), matter.Ground(), SimTK::Vec3(-1, 0.5, 0));
     cable.addObstacle(matter.Ground(), SimTK::Vec3(0), kCylinder, SimTK::Vec3(0.5, 0, 0));
     const SimTK::State state = system.realizeTopology();

@@ -13,27 +13,29 @@ constexpr int kDeepest = 128;  ///< entries of a stack: halves of at most 2^31 t
 /** A part whose center is farther than this many of its radii is one dipole (Barill et al. 2018, Sec. 4: 2.3). */
 constexpr double kFarRadii = 2.3;
 
-Vec3 findNearestOfSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 ab = b - a;
+Vector3 findNearestOfSegment(const Vector3& p, const Vector3& a, const Vector3& b) {
+    const Vector3 ab = b - a;
     const double square = ab.squaredNorm();
     const double t = square > 0 ? std::clamp(ab.dot(p - a) / square, 0.0, 1.0) : 0.0;
     return a + t * ab;
 }
 
 /** The foot on the plane if it lies between the edges, else the nearest point of the three. */
-Vec3 findNearestOfTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 n = (b - a).cross(c - a);
+Vector3 findNearestOfTriangle(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
+    const Vector3 n = (b - a).cross(c - a);
     const double square = n.squaredNorm();
-    const auto isWithin = [&](const Vec3& from, const Vec3& to) { return n.dot((to - from).cross(p - from)) >= 0; };
+    const auto isWithin = [&](const Vector3& from, const Vector3& to) {
+        return n.dot((to - from).cross(p - from)) >= 0;
+    };
     if (square > 0 && isWithin(a, b) && isWithin(b, c) && isWithin(c, a)) return p - n.dot(p - a) / square * n;
-    Vec3 nearest = findNearestOfSegment(p, a, b);
-    for (const Vec3& candidate : {findNearestOfSegment(p, b, c), findNearestOfSegment(p, c, a)})
+    Vector3 nearest = findNearestOfSegment(p, a, b);
+    for (const Vector3& candidate : {findNearestOfSegment(p, b, c), findNearestOfSegment(p, c, a)})
         if ((candidate - p).squaredNorm() < (nearest - p).squaredNorm()) nearest = candidate;
     return nearest;
 }
 
 /** Solid angle of a triangle seen from the origin [sr], positive from behind (van Oosterom and Strackee 1983). */
-double calcSolidAngle(const Vec3& a, const Vec3& b, const Vec3& c) {
+double calcSolidAngle(const Vector3& a, const Vector3& b, const Vector3& c) {
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
 }
@@ -51,7 +53,7 @@ MeshDistance::MeshDistance(TriangleMesh mesh) : m_mesh(std::move(mesh)) {
 
 /** Halves by the middle triangle along the longest side of the centers' box, so that the tree is never deep. */
 void MeshDistance::build(int at) {
-    const auto calcCenter = [this](int triangle) -> Vec3 {
+    const auto calcCenter = [this](int triangle) -> Vector3 {
         return (m_mesh.getCorner(triangle, 0) + m_mesh.getCorner(triangle, 1) + m_mesh.getCorner(triangle, 2)) / 3;
     };
     Node& node = m_nodes[static_cast<std::size_t>(at)];
@@ -81,18 +83,18 @@ void MeshDistance::setDipole(Node& node) const {
     double weight = 0;
     for (int i = node.first; i < node.first + node.count; ++i) {
         const int triangle = m_order[static_cast<std::size_t>(i)];
-        const Vec3 area = 0.5 * calcDoubleArea(m_mesh, triangle);
+        const Vector3 area = 0.5 * calcDoubleArea(m_mesh, triangle);
         for (int corner = 0; corner < 3; ++corner) node.center += area.norm() / 3 * m_mesh.getCorner(triangle, corner);
         weight += area.norm();
         node.area += area;
     }
-    node.center = weight > 0 ? Vec3(node.center / weight) : node.box.center();
-    const Vec3 reach = (node.box.max() - node.center).cwiseMax(node.center - node.box.min());
+    node.center = weight > 0 ? Vector3(node.center / weight) : node.box.center();
+    const Vector3 reach = (node.box.max() - node.center).cwiseMax(node.center - node.box.min());
     node.radius = reach.norm();
 }
 
 /** The nearer half first: the other one is then mostly too far. */
-MeshDistance::Nearest MeshDistance::findNearest(const Vec3& p, double within) const {
+MeshDistance::Nearest MeshDistance::findNearest(const Vector3& p, double within) const {
     struct Entry {
         int node;
         double square;
@@ -117,8 +119,8 @@ MeshDistance::Nearest MeshDistance::findNearest(const Vec3& p, double within) co
         }
         for (int i = node.first; i < node.first + node.count; ++i) {
             const int triangle = m_order[static_cast<std::size_t>(i)];
-            const Vec3 point = findNearestOfTriangle(p, m_mesh.getCorner(triangle, 0), m_mesh.getCorner(triangle, 1),
-                                                     m_mesh.getCorner(triangle, 2));
+            const Vector3 point = findNearestOfTriangle(p, m_mesh.getCorner(triangle, 0), m_mesh.getCorner(triangle, 1),
+                                                        m_mesh.getCorner(triangle, 2));
             const double square = (point - p).squaredNorm();
             if (square < best) best = square, nearest = {point, triangle, std::sqrt(square)};
         }
@@ -126,14 +128,14 @@ MeshDistance::Nearest MeshDistance::findNearest(const Vec3& p, double within) co
     return nearest;
 }
 
-double MeshDistance::calcWindingNumber(const Vec3& p) const {
+double MeshDistance::calcWindingNumber(const Vector3& p) const {
     double angle = 0;
     std::array<int, kDeepest> stack;
     std::size_t size = 0;
     stack[size++] = 0;
     while (size > 0) {
         const Node& node = m_nodes[static_cast<std::size_t>(stack[--size])];
-        const Vec3 toCenter = node.center - p;
+        const Vector3 toCenter = node.center - p;
         const double distance = toCenter.norm();
         if (distance > kFarRadii * node.radius && distance > 0) {
             angle += node.area.dot(toCenter) / (distance * distance * distance);

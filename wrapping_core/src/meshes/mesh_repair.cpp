@@ -27,9 +27,9 @@ void mergePoints(RepairedMesh& repaired) {
     const double cell = std::max(kSamePlace * box.diagonal().norm(), 1e-300);
     std::map<std::array<double, 3>, int> places;
     std::vector<int> newIndex;
-    std::vector<Vec3> points;
-    for (const Vec3& point : mesh.points) {
-        const Vec3 place = ((point - box.min()) / cell).array().round();
+    std::vector<Vector3> points;
+    for (const Vector3& point : mesh.points) {
+        const Vector3 place = ((point - box.min()) / cell).array().round();
         const auto [found, isNew] = places.emplace(std::array<double, 3>{place.x(), place.y(), place.z()}, 0);
         if (isNew) found->second = static_cast<int>(points.size()), points.push_back(point);
         newIndex.push_back(found->second);
@@ -175,7 +175,7 @@ void closeHoles(RepairedMesh& repaired) {
     for (const std::vector<int>& rim : findRims(mesh)) {
         if (rim.size() < 3) continue;
         Eigen::AlignedBox3d box;
-        Vec3 middle = Vec3::Zero();
+        Vector3 middle = Vector3::Zero();
         for (const int point : rim) {
             box.extend(mesh.points[static_cast<std::size_t>(point)]);
             middle += mesh.points[static_cast<std::size_t>(point)] / static_cast<double>(rim.size());

@@ -17,8 +17,8 @@ void requireMesh(const TriangleMesh& mesh) {
                     ", but there are ", count, " points");
 }
 
-Vec3 calcDoubleArea(const TriangleMesh& mesh, int triangle) {
-    const Vec3& a = mesh.getCorner(triangle, 0);
+Vector3 calcDoubleArea(const TriangleMesh& mesh, int triangle) {
+    const Vector3& a = mesh.getCorner(triangle, 0);
     return (mesh.getCorner(triangle, 1) - a).cross(mesh.getCorner(triangle, 2) - a);
 }
 
@@ -30,7 +30,7 @@ double calcArea(const TriangleMesh& mesh) {
 
 double calcVolume(const TriangleMesh& mesh) {
     if (mesh.triangles.empty()) return 0;
-    const Vec3 apex = mesh.getCorner(0, 0);  // near by, so that nothing large cancels
+    const Vector3 apex = mesh.getCorner(0, 0);  // near by, so that nothing large cancels
     double volume = 0;
     for (int i = 0; i < mesh.countTriangles(); ++i)
         volume += (mesh.getCorner(i, 0) - apex).dot(calcDoubleArea(mesh, i)) / 6;
@@ -39,7 +39,7 @@ double calcVolume(const TriangleMesh& mesh) {
 
 Eigen::AlignedBox3d calcBox(const TriangleMesh& mesh) {
     Eigen::AlignedBox3d box;
-    for (const Vec3& point : mesh.points) box.extend(point);
+    for (const Vector3& point : mesh.points) box.extend(point);
     return box;
 }
 

@@ -19,15 +19,15 @@ struct SampledArc {
     std::vector<DarbouxFrame> frames;
     std::vector<SurfacePoint> points;
     double spacing = 0;  ///< [m]
-    Vec3 A_S, B_S;       ///< where the segments come from and go to
+    Vector3 A_S, B_S;    ///< where the segments come from and go to
 
     int getLast() const { return static_cast<int>(frames.size()) - 1; }
 };
 
-SampledArc sampleArc(const Surface& surface, const ContactArc& arc, const Vec3& A_S, const Vec3& B_S) {
+SampledArc sampleArc(const Surface& surface, const ContactArc& arc, const Vector3& A_S, const Vector3& B_S) {
     constexpr int kLeast = 48, kMost = 1000;
     constexpr double kPerRadian = 24;
-    const Geodesic& geodesic = arc.geodesic;
+    const ShotGeodesic& geodesic = arc.geodesic;
     const double curvature =
         std::max({std::abs(geodesic.P.kappaN), std::abs(geodesic.Q.kappaN), 1 / surface.getSize()});
     const int pieces =
@@ -39,7 +39,7 @@ SampledArc sampleArc(const Surface& surface, const ContactArc& arc, const Vec3& 
     sampled.points = {arc.start.point};
     ArcWalker walker(surface, arc.start, kAlongArc, pieces);
     for (int i = 0; i < pieces; ++i) {
-        const Geodesic& piece = walker.next();
+        const ShotGeodesic& piece = walker.next();
         sampled.frames.push_back(piece.Q);
         sampled.points.push_back(piece.endPoint);
     }
@@ -81,10 +81,10 @@ bool hasHollow(const Surface& surface, const ContactArc& arc) {
 }
 
 /** Whether the segment passes clear of the surface. */
-bool isClear(const Surface& surface, const Vec3& A_S, const Vec3& B_S) {
+bool isClear(const Surface& surface, const Vector3& A_S, const Vector3& B_S) {
     const double length = (B_S - A_S).norm();
     if (!(length > 0)) return true;
-    const Vec3 e_S = (B_S - A_S) / length;
+    const Vector3 e_S = (B_S - A_S) / length;
     return surface.calcHeight(A_S + surface.findLowestPoint(A_S, e_S, length) * e_S) >= 0;
 }
 
@@ -128,7 +128,7 @@ void join(int i, double between, ObstacleContact& contact) {
 
 /** Whether a segment between two arcs of one obstacle runs back, as those of arcs that overlap do. */
 bool isReversed(const Pose& X_GS, const ContactArc& from, const ContactArc& to, const StraightSegment& line) {
-    const Vec3 e_S = X_GS.rotateBack(line.e);
+    const Vector3 e_S = X_GS.rotateBack(line.e);
     return !(e_S.dot(from.geodesic.Q.t) > 0) || !(e_S.dot(to.geodesic.P.t) > 0);
 }
 
@@ -210,7 +210,7 @@ void touchAgain(const PosedProblem& scene, int element, int segment, PathSolutio
     const Surface& surface = scene.getSurface(element);
     const Pose& X_GS = scene.getPose(element);
     ObstacleContact& contact = path.contacts[element];
-    const Vec3 A_S = X_GS.shiftBack(line.A), B_S = X_GS.shiftBack(line.B);
+    const Vector3 A_S = X_GS.shiftBack(line.A), B_S = X_GS.shiftBack(line.B);
     LineClearance clearance;
     findSegmentClearance(surface, X_GS, line.A, line.B, clearance);
     int at = line.fromElement == element ? line.fromArc + 1 : line.toArc;

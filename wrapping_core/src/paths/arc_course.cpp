@@ -11,7 +11,7 @@ namespace {
 
 /** Normal and place in the middle of the arcs, shot to no more accuracy than a side needs. */
 struct Middle {
-    Vec3 N, x;  ///< in S
+    Vector3 N, x;  ///< in S
 };
 
 Middle findMiddle(const Surface& surface, const ObstacleContact& contact) {
@@ -22,28 +22,28 @@ Middle findMiddle(const Surface& surface, const ObstacleContact& contact) {
     }
     GeodesicStart half = contact.getArc(n / 2).start;
     half.length *= 0.5;
-    Geodesic geodesic;
+    ShotGeodesic geodesic;
     surface.shootGeodesic(half, kRoughlyAlong, geodesic);
     return {geodesic.Q.N, geodesic.Q.x};
 }
 
 }  // namespace
 
-double calcShortTurning(const Vec3& from_S, const Vec3& to_S) {
+double calcShortTurning(const Vector3& from_S, const Vector3& to_S) {
     return std::atan2(from_S.x() * to_S.y() - from_S.y() * to_S.x(), from_S.head<2>().dot(to_S.head<2>()));
 }
 
-double calcTurning(const Surface& surface, const ObstacleContact& contact, const Vec3& A_S, const Vec3& B_S) {
+double calcTurning(const Surface& surface, const ObstacleContact& contact, const Vector3& A_S, const Vector3& B_S) {
     constexpr double kMostPieces = 2000, kQuarterTurn = 0.5 * kPi;
     double turning = 0;
-    Vec3 last = A_S;
-    const auto goTo = [&](const Vec3& p) {
+    Vector3 last = A_S;
+    const auto goTo = [&](const Vector3& p) {
         turning += calcShortTurning(last, p);
         last = p;
     };
     for (int i = 0; i < contact.getNumArcs(); ++i) {
         const GeodesicStart& start = contact.getArc(i).start;
-        const Geodesic& arc = contact.getArc(i).geodesic;
+        const ShotGeodesic& arc = contact.getArc(i).geodesic;
         const double curvature = std::max({std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN), 1 / surface.getSize()});
         const double turn = std::abs(start.length) * curvature;
         const int pieces = static_cast<int>(std::min(kMostPieces, 2 + 2 * turn));
@@ -62,20 +62,20 @@ double calcTurning(const Surface& surface, const ObstacleContact& contact, const
 double calcTurn(const ObstacleContact& contact) {
     double turn = 0;
     for (int i = 0; i < contact.getNumArcs(); ++i) {
-        const Geodesic& arc = contact.getArc(i).geodesic;
+        const ShotGeodesic& arc = contact.getArc(i).geodesic;
         turn += contact.getArc(i).start.length * std::max(std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN));
     }
     return turn;
 }
 
-Vec3 calcMiddleNormal(const Surface& surface, const ObstacleContact& contact) {
+Vector3 calcMiddleNormal(const Surface& surface, const ObstacleContact& contact) {
     constexpr double kFullTurn = 6;  // [rad], less than 2 pi since curvatures vary
     const DarbouxFrame &P = contact.geodesic.P, &Q = contact.getLastArc().geodesic.Q;
     if (calcTurn(contact) > kFullTurn) return findMiddle(surface, contact).N;
-    return P.t.dot(Q.t) > 0 ? Vec3(P.N + Q.N) : Vec3(P.t - Q.t);
+    return P.t.dot(Q.t) > 0 ? Vector3(P.N + Q.N) : Vector3(P.t - Q.t);
 }
 
-double calcMiddleAlong(const Surface& surface, const ObstacleContact& contact, const Vec3& direction_S) {
+double calcMiddleAlong(const Surface& surface, const ObstacleContact& contact, const Vector3& direction_S) {
     constexpr double kHalfTurn = 2.5;     // [rad], less than pi since curvatures vary
     constexpr double kNearTheEdge = 0.3;  // in sizes
     const double ofChord = 0.5 * direction_S.dot(contact.geodesic.P.x + contact.getLastArc().geodesic.Q.x);

@@ -5,8 +5,8 @@ namespace tautline {
 namespace {
 
 /** Whether the geodesic of a contact is the one that would be shot from its start. */
-bool isShotFromStart(const ContactArc& contact, const Surface& surface, const GeodesicOptions& options) {
-    const Geodesic& arc = contact.geodesic;
+bool isShotFromStart(const ContactArc& contact, const Surface& surface, const ShootingOptions& options) {
+    const ShotGeodesic& arc = contact.geodesic;
     return contact.shot.surface == surface.getId() && contact.shot.accuracy == options.accuracy && arc.converged &&
            arc.length == contact.start.length && arc.P.x == contact.start.point.p && arc.P.t == contact.start.tangent;
 }
@@ -16,7 +16,7 @@ number is not finite */
 bool layChain(const PathPose& pose, Chain& chain) {
     bool isFinite = true;
     for (ChainContact& contact : chain.contacts) {
-        const Geodesic& geodesic = contact.geodesic;
+        const ShotGeodesic& geodesic = contact.geodesic;
         isFinite = isFinite && geodesic.converged && geodesic.Q.x.allFinite() && geodesic.Q.t.allFinite();
         const Pose& X_GS = pose.X_GE[contact.element];
         contact.P = geodesic.P.reexpressedBy(X_GS);
@@ -26,7 +26,7 @@ bool layChain(const PathPose& pose, Chain& chain) {
         StraightSegment& line = segment.line;
         line.A = segment.fromContact < 0 ? pose.X_GE[line.fromElement].p : chain.contacts[segment.fromContact].Q.x;
         line.B = segment.toContact < 0 ? pose.X_GE[line.toElement].p : chain.contacts[segment.toContact].P.x;
-        const Vec3 AB = line.B - line.A;
+        const Vector3 AB = line.B - line.A;
         line.length = AB.norm();
         // Coincident ends: any direction serves, the neighbouring tangent if there is one.
         if (line.length > 0)
@@ -34,7 +34,7 @@ bool layChain(const PathPose& pose, Chain& chain) {
         else if (segment.toContact >= 0)
             line.e = chain.contacts[segment.toContact].P.t;
         else
-            line.e = segment.fromContact >= 0 ? chain.contacts[segment.fromContact].Q.t : Vec3(Vec3::UnitX());
+            line.e = segment.fromContact >= 0 ? chain.contacts[segment.fromContact].Q.t : Vector3(Vector3::UnitX());
     }
     return isFinite;
 }
@@ -77,13 +77,13 @@ void Chain::build(const PathProblem& problem, const PathPose& pose,
     segments.resize(numSegments);
 }
 
-bool shootChain(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options, Chain& chain) {
+bool shootChain(const PathProblem& problem, const PathPose& pose, const ShootingOptions& options, Chain& chain) {
     for (ChainContact& contact : chain.contacts)
         problem.getElement(contact.element).surface->shootGeodesic(contact.start, options, contact.geodesic);
     return layChain(pose, chain);
 }
 
-bool shootUnknownArcs(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options,
+bool shootUnknownArcs(const PathProblem& problem, const PathPose& pose, const ShootingOptions& options,
                       const std::vector<ObstacleContact>& elementContacts, Chain& chain, int& numShots) {
     numShots = 0;
     for (ChainContact& contact : chain.contacts) {

@@ -12,11 +12,11 @@ namespace tautline {
 /** An arc of a chain. */
 struct ChainContact {
     int element = -1;
-    int arc = 0;          ///< which of the element's
-    int segmentIn = -1;   ///< the segment that ends at P; the next one, segmentIn + 1, begins at Q
-    GeodesicStart start;  ///< in S
-    Geodesic geodesic;    ///< in S
-    DarbouxFrame P, Q;    ///< in ground
+    int arc = 0;            ///< which of the element's
+    int segmentIn = -1;     ///< the segment that ends at P; the next one, segmentIn + 1, begins at Q
+    GeodesicStart start;    ///< in S
+    ShotGeodesic geodesic;  ///< in S
+    DarbouxFrame P, Q;      ///< in ground
 };
 
 /** A straight segment of a chain; contact indices are -1 where it ends at a fixed point. */
@@ -36,13 +36,13 @@ struct Chain {
 
 /** Shoots all geodesics of the chain (step 1 of thesis Sec. 4.6) and lays the straight segments.
 @return false if a geodesic did not come to its end or a number is not finite */
-bool shootChain(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options, Chain& chain);
+bool shootChain(const PathProblem& problem, const PathPose& pose, const ShootingOptions& options, Chain& chain);
 
 /** As shootChain(), but takes the geodesics that are known: shot on the same surface, as accurately, from where the arc
 starts now.
 @param elementContacts   by element, those that the chain was built from
 @param numShots          how many had to be shot */
-bool shootUnknownArcs(const PathProblem& problem, const PathPose& pose, const GeodesicOptions& options,
+bool shootUnknownArcs(const PathProblem& problem, const PathPose& pose, const ShootingOptions& options,
                       const std::vector<ObstacleContact>& elementContacts, Chain& chain, int& numShots);
 
 /** Length of segments and arcs [m]. */

@@ -23,14 +23,14 @@ double makeWitness(double value) {
 minima between its ends, 1 if there is none. Towards its tangent end the height falls to 0, which is not a minimum. */
 double calcReturnHeight(const Surface& surface, const Pose& X_GS, const StraightSegment& line) {
     const double size = surface.getSize();
-    const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.rotateBack(line.e);
+    const Vector3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.rotateBack(line.e);
     const auto place = findClosestApproach(surface, A_S, e_S, line.length, size);
     return place ? place->height / size : 1;
 }
 
-/** The least of -kappaN along an arc, above what counts as pressure all along (kVerificationRounding). Where it is least
-at the end of a bridge, the width of that tells more: to rounding of the path error the end lies on either side of where
-the pressure vanishes. */
+/** The least of -kappaN along an arc, above what counts as pressure all along (kVerificationRounding). Where it is
+least at the end of a bridge, the width of that tells more: to rounding of the path error the end lies on either side of
+where the pressure vanishes. */
 double calcPressure(const Surface& surface, const ObstacleContact& contact, int i) {
     const ContactArc& arc = contact.getArc(i);
     const double largest = calcLargestNormalCurvature(surface, arc.start, arc.geodesic);

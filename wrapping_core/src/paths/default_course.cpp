@@ -10,26 +10,28 @@ namespace tautline {
 namespace {
 
 /** By how much a route turns about the z axis of S between two points, over the waypoints between them [rad]. */
-double calcRouteTurning(const Pose& X_GS, const Vec3& from_G, const std::vector<Vec3>& waypoints, const Vec3& to_G) {
+double calcRouteTurning(const Pose& X_GS, const Vector3& from_G, const std::vector<Vector3>& waypoints,
+                        const Vector3& to_G) {
     double turning = 0;
-    Vec3 last = X_GS.shiftBack(from_G);
-    const auto goTo = [&](const Vec3& point_G) {
-        const Vec3 p = X_GS.shiftBack(point_G);
+    Vector3 last = X_GS.shiftBack(from_G);
+    const auto goTo = [&](const Vector3& point_G) {
+        const Vector3 p = X_GS.shiftBack(point_G);
         turning += calcShortTurning(last, p);
         last = p;
     };
-    for (const Vec3& point_G : waypoints) goTo(point_G);
+    for (const Vector3& point_G : waypoints) goTo(point_G);
     goTo(to_G);
     return turning;
 }
 
 /** Outward where a search would have the path: at the point of a hint, or where the straight line comes nearest to the
 obstacle or lies deepest in it. */
-Vec3 calcDefaultSide(const PosedProblem& scene, int e, const std::vector<Vec3>& waypoints, const Vec3& from_G,
-                     const Vec3& to_G) {
+Vector3 calcDefaultSide(const PosedProblem& scene, int e, const std::vector<Vector3>& waypoints, const Vector3& from_G,
+                        const Vector3& to_G) {
     const Surface& surface = scene.getSurface(e);
     if (!waypoints.empty())
-        return surface.calcFrame(surface.findSurfacePoint(scene.getPose(e).shiftBack(waypoints.front())), Vec3(1, 2, 3))
+        return surface
+            .calcFrame(surface.findSurfacePoint(scene.getPose(e).shiftBack(waypoints.front())), Vector3(1, 2, 3))
             .N;
     LineClearance line;
     findSegmentClearance(surface, scene.getPose(e), from_G, to_G, line);
@@ -38,8 +40,8 @@ Vec3 calcDefaultSide(const PosedProblem& scene, int e, const std::vector<Vec3>& 
 
 /** Where an obstacle lies between the waypoints of a route. */
 struct RoutePlace {
-    const std::vector<Vec3>& waypoints;  ///< of its own
-    Vec3 from_G, to_G;                   ///< before and after
+    const std::vector<Vector3>& waypoints;  ///< of its own
+    Vector3 from_G, to_G;                   ///< before and after
 };
 
 /** Whether the path is in the class of the route about a body without end: there it is decided by the turning.
@@ -81,7 +83,7 @@ bool isOnSideOfRoute(const PosedProblem& scene, const PathSolution& path, int e,
     if (contact.isTouched && !(calcTurn(contact) < 2 * kPi)) return false;
     if (contact.getNumArcs() > 1) return false;  // there may be a minimum for every choice of places
     if (contact.isTouched && !scene.isBetweenPoints(path, in, out)) return false;
-    const Vec3 N =
+    const Vector3 N =
         contact.isTouched ? calcMiddleNormal(scene.getSurface(e), contact).normalized() : contact.clearance.N;
     const bool isShort =
         !contact.isTouched || contact.geodesic.P.t.dot(contact.getLastArc().geodesic.Q.t) > kCosineOfShortArc;
@@ -93,10 +95,10 @@ minimum, and there may be one more where it lies round most of the tube. */
 bool liesWhereEndsPull(const PosedProblem& scene, int e, const ObstacleContact& contact, const RoutePlace& route) {
     if (!contact.isTouched) return true;
     if (contact.getNumArcs() > 1 || !(calcTurn(contact) < kPi)) return false;
-    const Vec3 axis = scene.getSurface(e).getHole()->getAxis();
+    const Vector3 axis = scene.getSurface(e).getHole()->getAxis();
     const Pose& X_GS = scene.getPose(e);
-    const auto calcAside = [&](const Vec3& v) { return Vec3(v - axis.dot(v) * axis).normalized(); };
-    const Vec3 pull = X_GS.shiftBack(route.from_G).normalized() + X_GS.shiftBack(route.to_G).normalized();
+    const auto calcAside = [&](const Vector3& v) { return Vector3(v - axis.dot(v) * axis).normalized(); };
+    const Vector3 pull = X_GS.shiftBack(route.from_G).normalized() + X_GS.shiftBack(route.to_G).normalized();
     return calcAside(pull).dot(calcAside(contact.geodesic.P.x + contact.getLastArc().geodesic.Q.x)) > kCosineOfNear;
 }
 

@@ -28,11 +28,11 @@ constexpr double kNodesPerTurn = 20;   ///< at the default fineness
 /** Where a line along e that dips deepest below a surface at D is bent to: the foot of D, straight across from it. If
 it is not across, D lies on an axis or a centre, and the foot may lie in a plane of symmetry in which the string would
 stay: then the foot of a point beside D, in a direction that is special for no shape. */
-Vec3 findBend(const Surface& surface, const Vec3& D_S, const Vec3& e_S) {
+Vector3 findBend(const Surface& surface, const Vector3& D_S, const Vector3& e_S) {
     constexpr double kAskew = 0.1, kBeside = 1e-3;  // cosine of the angle to the line; in sizes
-    const Vec3 foot = surface.findSurfacePoint(D_S).p;
+    const Vector3 foot = surface.findSurfacePoint(D_S).p;
     if (std::abs(e_S.dot(foot - D_S)) <= kAskew * (foot - D_S).norm()) return foot;
-    const Vec3 beside = makeTangent(Vec3(0.48, 0.64, 0.6), e_S);
+    const Vector3 beside = makeTangent(Vector3(0.48, 0.64, 0.6), e_S);
     return surface.findSurfacePoint(D_S + kBeside * surface.getSize() * beside).p;
 }
 
@@ -56,7 +56,7 @@ void ElasticBand::lay(const PosedProblem& scene, const Waypoints& waypoints) {
             m_holds.back().element = e, m_holds.back().X_GS = pose.X_GE[e], m_holds.back().from = lastFixed;
         }
         const int current = static_cast<int>(m_holds.size()) - 1;
-        for (const Vec3& guide : waypoints[e]) {
+        for (const Vector3& guide : waypoints[e]) {
             if (!m_nodes.empty()) layEdge(problem, lastGuided, m_nodes.back(), guide, kLayingDepth);
             addNode(guide, isPoint);
             if (!isPoint) noteContact(m_holds[current], static_cast<int>(m_nodes.size()) - 1);
@@ -72,18 +72,18 @@ void ElasticBand::lay(const PosedProblem& scene, const Waypoints& waypoints) {
 
 /** Lays the string from A, the last node, towards B around the surfaces that this edge would cross: it is
 bent outwards where it is deepest, and so on for both halves. B itself is not added. */
-void ElasticBand::layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth) {
+void ElasticBand::layEdge(const PathProblem& problem, int firstHold, Vector3 A, const Vector3& B, int depth) {
     int crossed = -1;
     double deepest = -kLayingDepthTolerance;
-    Vec3 bend = Vec3::Zero();
+    Vector3 bend = Vector3::Zero();
     const double length = (B - A).norm();
     if (depth == 0 || !(length > 0)) return;
     for (int i = firstHold; i < static_cast<int>(m_holds.size()); ++i) {
         const Surface& surface = *problem.getElement(m_holds[i].element).surface;
         const Pose& X_GS = m_holds[i].X_GS;
-        const Vec3 A_S = X_GS.shiftBack(A), e_S = X_GS.R.transpose() * (B - A) / length;
+        const Vector3 A_S = X_GS.shiftBack(A), e_S = X_GS.R.transpose() * (B - A) / length;
         const double s = surface.findLowestPoint(A_S, e_S, length);
-        const Vec3 D_S = A_S + s * e_S;
+        const Vector3 D_S = A_S + s * e_S;
         const double depthThere = surface.calcHeight(D_S) / surface.getSize();
         // An end below the surface is no bend: that obstacle is switched off, or the guide lies in another.
         if (!(depthThere < deepest) || s <= 0 || s >= length) continue;
@@ -97,7 +97,7 @@ void ElasticBand::layEdge(const PathProblem& problem, int firstHold, Vec3 A, con
     layEdge(problem, firstHold, bend, B, depth - 1);
 }
 
-void ElasticBand::addNode(const Vec3& x, bool isFixed) {
+void ElasticBand::addNode(const Vector3& x, bool isFixed) {
     m_nodes.push_back(x);
     m_isFixed.push_back(isFixed);
 }
@@ -136,7 +136,7 @@ std::size_t ElasticBand::findFirstHold(int node) const {
 
 /** Room at a point after a node: least of (size + distance) over the obstacles that act there or may soon, when
 a neighbour lifts and their portions grow. */
-double ElasticBand::calcRoom(const PathProblem& problem, const Vec3& x, int node) {
+double ElasticBand::calcRoom(const PathProblem& problem, const Vector3& x, int node) {
     double room = m_extent;
     const std::size_t first = findFirstHold(node);
     int beyond = 0;
@@ -156,7 +156,7 @@ double ElasticBand::calcRoom(const PathProblem& problem, const Vec3& x, int node
 void ElasticBand::remesh(const PathProblem& problem, double fineness) {
     const int maxNodes = std::max(kMaxNodes, kMaxNodesPerElement * problem.getNumElements());
     const double least = m_extent / maxNodes;
-    std::vector<Vec3> nodes;
+    std::vector<Vector3> nodes;
     std::vector<char> isFixed;
     std::vector<int> newIndex(m_nodes.size());  // of the new node at or just after an old one
     for (std::size_t k = 0; k < m_nodes.size(); ++k) {
@@ -166,7 +166,7 @@ void ElasticBand::remesh(const PathProblem& problem, double fineness) {
             isFixed.push_back(m_isFixed[k]);
         }
         if (k + 1 == m_nodes.size()) break;
-        const Vec3 edge = m_nodes[k + 1] - m_nodes[k];
+        const Vector3 edge = m_nodes[k + 1] - m_nodes[k];
         // March along the edge; what is left of a step carries over to the next edge.
         const double length = edge.norm();
         double at = 0;
@@ -174,8 +174,8 @@ void ElasticBand::remesh(const PathProblem& problem, double fineness) {
             const double spacing =
                 std::max(least, fineness * kSpacingPerRoom * calcRoom(problem, nodes.back(), static_cast<int>(k)));
             // Where the last node lies relative to this edge: step from it to the sphere of radius `spacing`.
-            const Vec3 toStart = m_nodes[k] - nodes.back();
-            const Vec3 direction = length > 0 ? Vec3(edge / length) : Vec3(Vec3::Zero());
+            const Vector3 toStart = m_nodes[k] - nodes.back();
+            const Vector3 direction = length > 0 ? Vector3(edge / length) : Vector3(Vector3::Zero());
             const double b = toStart.dot(direction), c = toStart.squaredNorm() - spacing * spacing;
             const double discriminant = b * b - c;
             if (!(discriminant > 0) || !(length > 0)) break;
@@ -233,9 +233,9 @@ double ElasticBand::sweep(const PathProblem& problem, double relaxation, bool is
     for (int step = 1; step + 1 < n; ++step) {
         const int k = isForward ? step : n - 1 - step;
         if (m_isFixed[k]) continue;
-        const Vec3 old = m_nodes[k];
+        const Vector3 old = m_nodes[k];
         const double left = m_stiffness[k - 1], right = m_stiffness[k];
-        Vec3 move = relaxation * ((left * m_nodes[k - 1] + right * m_nodes[k + 1]) / (left + right) - old);
+        Vector3 move = relaxation * ((left * m_nodes[k - 1] + right * m_nodes[k + 1]) / (left + right) - old);
         const double limit = kMovePerRoom * m_room[k], length = move.norm();
         if (length > limit) move *= limit / length;
         moveNode(k, old + move);
@@ -255,7 +255,7 @@ void ElasticBand::forgetHeights() {
     }
 }
 
-void ElasticBand::moveNode(int node, const Vec3& x) {
+void ElasticBand::moveNode(int node, const Vector3& x) {
     m_travel[node] += (x - m_nodes[node]).norm();
     m_nodes[node] = x;
 }
@@ -274,14 +274,14 @@ void ElasticBand::pushOut(const PathProblem& problem, int node, double& room) {
             room = std::min(room, size + seen->height - moved);
             continue;
         }
-        Vec3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
+        Vector3 N_S, p_S = hold.X_GS.shiftBack(m_nodes[node]);
         const double height = surface.calcHeightAndNormal(p_S, N_S);
         if (seen) *seen = {height, m_travel[node]};
         ++m_numHeights;
         room = std::min(room, size + std::max(0.0, height));
         if (height > 0) continue;
         if (height > -0.02 * size)
-            moveNode(node, hold.X_GS * Vec3(p_S - height * N_S));
+            moveNode(node, hold.X_GS * Vector3(p_S - height * N_S));
         else
             moveNode(node, hold.X_GS * surface.findSurfacePoint(p_S).p);
         noteContact(hold, node);
@@ -328,7 +328,7 @@ StringFault ElasticBand::findFault(const PathProblem& problem) const {
     return {};
 }
 
-void ElasticBand::move(int element, const Vec3& by_G) {
+void ElasticBand::move(int element, const Vector3& by_G) {
     for (const Hold& hold : m_holds) {
         if (hold.element != element || !hold.touches()) continue;
         for (int k = hold.first; k <= hold.last; ++k)
@@ -340,7 +340,7 @@ void ElasticBand::disturb() {
     for (std::size_t k = 0; k < m_nodes.size(); ++k) {
         const double phase = 1.0 + static_cast<double>(k) / kNodesPerTurn;
         if (!m_isFixed[k])
-            m_nodes[k] += kDisturbance * m_room[k] * Vec3(std::sin(phase), std::sin(2 * phase), std::sin(3 * phase));
+            m_nodes[k] += kDisturbance * m_room[k] * Vector3(std::sin(phase), std::sin(2 * phase), std::sin(3 * phase));
     }
 }
 
@@ -374,7 +374,7 @@ void ElasticBand::extractContacts(const PosedProblem& scene, std::vector<Obstacl
 
 /** The arc next to the nodes from one to another. */
 ContactArc ElasticBand::makeArc(const PosedProblem& scene, const Hold& hold, int first, int last) const {
-    const std::vector<Vec3> touching(m_nodes.begin() + first, m_nodes.begin() + last + 1);
+    const std::vector<Vector3> touching(m_nodes.begin() + first, m_nodes.begin() + last + 1);
     ContactArc arc;
     arc.start = calcArcAlong(scene.getSurface(hold.element), scene.getPose(hold.element), m_nodes[first - 1], touching,
                              m_nodes[last + 1]);

@@ -23,7 +23,7 @@ public:
     void relax(const PathProblem& problem, const BandLevel& level);
 
     /** Moves the nodes that touch an element, to free a band from a saddle. @param by_G   in ground [m] */
-    void move(int element, const Vec3& by_G);
+    void move(int element, const Vector3& by_G);
 
     /** Moves every node by a little of its own, out of whatever symmetry the band was laid in. */
     void disturb();
@@ -37,7 +37,7 @@ public:
     /** All pairs of obstacles in the groove between which the band lies, or that it meets out of order. */
     std::vector<StringFault> findGrooves(const PathProblem& problem) const;
 
-    const std::vector<Vec3>& getNodes() const { return m_nodes; }
+    const std::vector<Vector3>& getNodes() const { return m_nodes; }
 
 private:
     /** How high above a surface a node was when it was last asked, and how far it had travelled then. */
@@ -62,23 +62,23 @@ private:
         bool touches() const { return first >= 0; }
     };
 
-    void layEdge(const PathProblem& problem, int firstHold, Vec3 A, const Vec3& B, int depth);
-    void addNode(const Vec3& x, bool isFixed);
+    void layEdge(const PathProblem& problem, int firstHold, Vector3 A, const Vector3& B, int depth);
+    void addNode(const Vector3& x, bool isFixed);
     static void noteContact(Hold& hold, int node);
     void remesh(const PathProblem& problem, double fineness);
     void updatePortions(const PathProblem& problem);
     double sweep(const PathProblem& problem, double relaxation, bool isForward);
     std::size_t findFirstHold(int node) const;
-    double calcRoom(const PathProblem& problem, const Vec3& x, int node);
+    double calcRoom(const PathProblem& problem, const Vector3& x, int node);
     void forgetHeights();
-    void moveNode(int node, const Vec3& x);
+    void moveNode(int node, const Vector3& x);
     void pushOut(const PathProblem& problem, int node, double& room);
     double calcHeight(const PathProblem& problem, const Hold& hold, int node) const;
     ContactArc makeArc(const PosedProblem& scene, const Hold& hold, int first, int last) const;
     bool liesInGroove(const PathProblem& problem, const Hold& hold, const Hold& other) const;
     bool restsOn(const PathProblem& problem, const Hold& hold, int node) const;
 
-    std::vector<Vec3> m_nodes;
+    std::vector<Vector3> m_nodes;
     std::vector<char> m_isFixed;
     std::vector<double> m_travel;     ///< of each node, since the last mesh was made [m]
     std::vector<double> m_stiffness;  ///< of edge k between nodes k and k + 1

@@ -7,17 +7,17 @@ namespace tautline {
 
 FrameVariations calcStartVariations(const DarbouxFrame& P) {
     FrameVariations d;
-    d.x << P.t, P.B, Vec3::Zero(), Vec3::Zero();
+    d.x << P.t, P.B, Vector3::Zero(), Vector3::Zero();
     // Eqn. 4.12, 4.13 (with tauG of B = -tauG of t), 4.30, 4.45
-    d.N << -P.kappaN * P.t + P.tauG * P.B, P.tauG * P.t - P.kappaB * P.B, Vec3::Zero(), Vec3::Zero();
-    d.B << -P.tauG * P.N, P.kappaB * P.N, -P.t, Vec3::Zero();
+    d.N << -P.kappaN * P.t + P.tauG * P.B, P.tauG * P.t - P.kappaB * P.B, Vector3::Zero(), Vector3::Zero();
+    d.B << -P.tauG * P.N, P.kappaB * P.N, -P.t, Vector3::Zero();
     return d;
 }
 
-FrameVariations calcEndVariations(const DarbouxFrame& Q, const Geodesic& geodesic) {
+FrameVariations calcEndVariations(const DarbouxFrame& Q, const ShotGeodesic& geodesic) {
     const double a = geodesic.a, aDot = geodesic.aDot, r = geodesic.r, rDot = geodesic.rDot;
-    const Vec3 dN_t = -Q.kappaN * Q.t + Q.tauG * Q.B, dB_t = -Q.tauG * Q.N;
-    const Vec3 dN_B = Q.tauG * Q.t - Q.kappaB * Q.B, dB_B = Q.kappaB * Q.N;
+    const Vector3 dN_t = -Q.kappaN * Q.t + Q.tauG * Q.B, dB_t = -Q.tauG * Q.N;
+    const Vector3 dN_B = Q.tauG * Q.t - Q.kappaB * Q.B, dB_B = Q.kappaB * Q.N;
     FrameVariations d;
     d.x << Q.t, a * Q.B, r * Q.B, Q.t;
     d.N << dN_t, a * dN_B, r * dN_B, dN_t;  // Eqn. 4.12, 4.29, 4.44, 4.46
@@ -26,7 +26,7 @@ FrameVariations calcEndVariations(const DarbouxFrame& Q, const Geodesic& geodesi
 }
 
 GeodesicStart calcCorrectedStart(const Surface& surface, const GeodesicStart& start, const DarbouxFrame& P_S,
-                                 const Vec4& correction) {
+                                 const Vector4& correction) {
     GeodesicStart corrected;
     corrected.point =
         surface.calcDisplacedPoint(start.point, correction[0] * P_S.t + correction[1] * P_S.B);  // Eqn. 7.22

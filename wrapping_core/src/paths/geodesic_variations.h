@@ -13,10 +13,10 @@ struct FrameVariations {
     Eigen::Matrix<double, 3, kVariations> x, N, B;
 };
 FrameVariations calcStartVariations(const DarbouxFrame& P);
-FrameVariations calcEndVariations(const DarbouxFrame& Q, const Geodesic& geodesic);
+FrameVariations calcEndVariations(const DarbouxFrame& Q, const ShotGeodesic& geodesic);
 
 /** The start corrected by finite natural corrections (thesis Sec. 4.5, 7.5). */
 GeodesicStart calcCorrectedStart(const Surface& surface, const GeodesicStart& start, const DarbouxFrame& P_S,
-                                 const Vec4& correction);
+                                 const Vector4& correction);
 
 }  // namespace tautline

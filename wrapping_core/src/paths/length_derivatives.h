@@ -20,7 +20,7 @@ vanishes.
 
     own: d2L/(dxi^i dxi^i),     next: d2L/(dxi^i dxi^(i+1)), zero after the last contact and before a fixed point */
 struct LengthHessianBlocks {
-    Mat4 own, next;
+    Matrix4 own, next;
 };
 void calcLengthHessian(const Chain& chain, std::vector<LengthHessianBlocks>& hessian);
 

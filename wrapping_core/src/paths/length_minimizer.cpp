@@ -58,7 +58,7 @@ bool LengthMinimizer::takeStep(PathSolution& path) {
 
 /** Units of xi that make its effects alike: the size of the surface for moves; for turns the angle whose effect at Q
 is that of a move, since the system is singular at r = 0 otherwise. */
-Vec4 LengthMinimizer::calcScales(std::size_t contact) const {
+Vector4 LengthMinimizer::calcScales(std::size_t contact) const {
     const double size = m_stepper.getSize(contact);
     const double r = std::abs(m_stepper.getChain().contacts[contact].geodesic.r) / size;
     return {size, size, 1 / std::sqrt(std::clamp(r, kLeastJacobi, 1.0)), size};
@@ -71,7 +71,7 @@ void LengthMinimizer::assemble(double delta) {
     m_solution.resize(BlockLdlt::k * n);
     // dc^i/dxi^j, 2 x 4, scaled
     const auto calcConditions = [&](int i, int j) {
-        const Vec4 scales = calcScales(j);
+        const Vector4 scales = calcScales(j);
         Eigen::Matrix<double, 2, kVariations> A;
         for (int row = 0; row < 2; ++row)
             for (int column = 0; column < kVariations; ++column) {
@@ -82,7 +82,7 @@ void LengthMinimizer::assemble(double delta) {
         return A;
     };
     for (int i = 0; i < n; ++i) {
-        const Vec4 scales = calcScales(i);
+        const Vector4 scales = calcScales(i);
         const double size = m_stepper.getSize(i);
         Eigen::Map<BlockLdlt::Block> own = m_kkt.updDiagonal(i);
         own.topLeftCorner<4, 4>() = scales.asDiagonal() * m_hessian[i].own * scales.asDiagonal();
@@ -108,17 +108,17 @@ bool LengthMinimizer::solve(bool isDownhill, const std::vector<double>& eps, std
     const std::size_t n = m_hessian.size();
     for (std::size_t i = 0; i < n; ++i) {
         double* right = &m_solution[BlockLdlt::k * i];
-        Eigen::Map<Vec4> g(right);
+        Eigen::Map<Vector4> g(right);
         g.setZero();
-        if (isDownhill) g = -calcScales(i).cwiseProduct(Eigen::Map<const Vec4>(&m_gradient[kVariations * i]));
+        if (isDownhill) g = -calcScales(i).cwiseProduct(Eigen::Map<const Vector4>(&m_gradient[kVariations * i]));
         for (int k = 0; k < 2; ++k)
             right[kVariations + k] = -m_stepper.getSize(i) * eps[kVariations * i + kTangency[k]];
     }
     m_kkt.solveInPlace(m_solution);
     step.resize(m_gradient.size());
     for (std::size_t i = 0; i < n; ++i) {
-        const Eigen::Map<const Vec4> solution(&m_solution[BlockLdlt::k * i]);
-        Eigen::Map<Vec4> d(&step[kVariations * i]);
+        const Eigen::Map<const Vector4> solution(&m_solution[BlockLdlt::k * i]);
+        Eigen::Map<Vector4> d(&step[kVariations * i]);
         d = calcScales(i).cwiseProduct(solution);
         if (!d.allFinite()) return false;
     }
@@ -146,11 +146,11 @@ double LengthMinimizer::predictChange(double& slope) const {
     double curvature = 0;
     slope = 0;
     for (std::size_t i = 0; i < m_hessian.size(); ++i) {
-        const Eigen::Map<const Vec4> d(&m_step[kVariations * i]);
-        slope += d.dot(Eigen::Map<const Vec4>(&m_gradient[kVariations * i]));
+        const Eigen::Map<const Vector4> d(&m_step[kVariations * i]);
+        slope += d.dot(Eigen::Map<const Vector4>(&m_gradient[kVariations * i]));
         curvature += d.dot(m_hessian[i].own * d);
         if (i + 1 < m_hessian.size())
-            curvature += 2 * d.dot(m_hessian[i].next * Eigen::Map<const Vec4>(&m_step[kVariations * (i + 1)]));
+            curvature += 2 * d.dot(m_hessian[i].next * Eigen::Map<const Vector4>(&m_step[kVariations * (i + 1)]));
     }
     return slope + 0.5 * std::max(curvature, 0.0);
 }

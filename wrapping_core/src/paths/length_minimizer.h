@@ -43,7 +43,7 @@ private:
     bool hasInertiaOfMinimum() const;
     double calcViolation(const Chain& chain, const std::vector<double>& eps) const;
     bool searchLine(PathSolution& path);
-    Vec4 calcScales(std::size_t contact) const;
+    Vector4 calcScales(std::size_t contact) const;
 
     PathSolverOptions m_options;
     PathStepper m_stepper;

@@ -44,7 +44,7 @@ void setStartColumns(const MoveDerivatives& d, double* rowN, double* rowB) {
 }
 
 /** The columns of an arc whose end Q moves, along t and, by the Jacobi fields, along B: two rows. */
-void setEndColumns(const MoveDerivatives& d, const Geodesic& geodesic, double* rowN, double* rowB) {
+void setEndColumns(const MoveDerivatives& d, const ShotGeodesic& geodesic, double* rowN, double* rowB) {
     rowN[0] = d.N_t, rowN[1] = geodesic.a * d.N_B, rowN[2] = geodesic.r * d.N_B, rowN[3] = d.N_t;
     rowB[0] = d.B_t, rowB[1] = geodesic.a * d.B_B, rowB[2] = geodesic.r * d.B_B, rowB[3] = d.B_t;
 }
@@ -56,8 +56,8 @@ double calcPathError(const Chain& chain, std::vector<double>& eps) {
     double largest = 0;
     for (std::size_t i = 0; i < chain.contacts.size(); ++i) {
         const ChainContact& contact = chain.contacts[i];
-        const Vec3& eIn = chain.segments[contact.segmentIn].line.e;
-        const Vec3& eOut = chain.segments[contact.segmentIn + 1].line.e;
+        const Vector3& eIn = chain.segments[contact.segmentIn].line.e;
+        const Vector3& eOut = chain.segments[contact.segmentIn + 1].line.e;
         const double local[] = {eIn.dot(contact.P.N), eIn.dot(contact.P.B), eOut.dot(contact.Q.N),
                                 eOut.dot(contact.Q.B)};  // Eqn. 4.3
         for (int row = 0; row < kVariations; ++row) {
@@ -75,7 +75,7 @@ void calcPathErrorJacobian(const Chain& chain, PathJacobian& jacobian) {
     SegmentEnd atP;
     for (int i = 0; i < n; ++i) {
         const ChainContact& contact = chain.contacts[i];
-        const Geodesic& geodesic = contact.geodesic;
+        const ShotGeodesic& geodesic = contact.geodesic;
         const ChainSegment &in = chain.segments[contact.segmentIn], &out = chain.segments[contact.segmentIn + 1];
         if (in.fromContact < 0) atP = calcSegmentEnd(in.line, contact.P);
         const SegmentEnd atQ = calcSegmentEnd(out.line, contact.Q);

@@ -74,7 +74,7 @@ int findVanishingPressure(const PathProblem& problem, const PathSolution& path) 
         const ObstacleContact& contact = path.contacts[e];
         if (problem.getElement(e).isPoint()) continue;
         for (int i = 0; i < contact.getNumArcs(); ++i) {
-            const Geodesic& arc = contact.getArc(i).geodesic;
+            const ShotGeodesic& arc = contact.getArc(i).geodesic;
             if (std::max(arc.P.kappaN, arc.Q.kappaN) * problem.getElement(e).surface->getSize() > -kVanishing) return e;
         }
     }
@@ -106,7 +106,7 @@ const StraightSegment* findRoundedSegment(const PathSolution& path) {
 /** Two obstacles of which the arc on one passes below the surface of the other: they overlap where the path passes. */
 StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     constexpr int kSamples = 9;  // of an arc
-    std::vector<Vec3> arc_S, one_S;
+    std::vector<Vector3> arc_S, one_S;
     const auto sampleArcs = [&](int e) {
         arc_S.clear();
         for (int i = 0; i < path.contacts[e].getNumArcs(); ++i) {
@@ -117,8 +117,8 @@ StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const 
     };
     const auto isBelow = [&](int e, int other) {
         const Surface& surface = *problem.getElement(other).surface;
-        return std::any_of(arc_S.begin(), arc_S.end(), [&](const Vec3& p_S) {
-            const Vec3 p_G = pose.X_GE[e] * p_S;
+        return std::any_of(arc_S.begin(), arc_S.end(), [&](const Vector3& p_S) {
+            const Vector3 p_G = pose.X_GE[e] * p_S;
             return surface.calcHeight(pose.X_GE[other].shiftBack(p_G)) < kOverlap * surface.getSize();
         });
     };
@@ -212,7 +212,7 @@ std::string explainNotMinimum(const PathProblem& problem, const PathPose& pose, 
     if (const std::string left = explainLeftHole(problem, path); !left.empty()) return left;
     const PathVerification verification = verifyPath(problem, pose, path, shortestArc);
     if (verification.isMinimum()) return describe(verification, problem);
-    const Vec3& place = verification.place_G;
+    const Vector3& place = verification.place_G;
     std::ostringstream text;
     text << describe(verification, problem) << " at (" << place.x() << ", " << place.y() << ", " << place.z() << ")";
     text << describeCause(problem, pose, path);

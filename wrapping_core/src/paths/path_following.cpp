@@ -16,8 +16,8 @@ bool isNear(const PathProblem& problem, const PathSolution& a, const PathSolutio
     constexpr double kNear = 0.1;  // of the surface's size
     for (std::size_t e = 0; e < a.contacts.size(); ++e) {
         if (!a.contacts[e].isTouched) continue;
-        const Geodesic &aFirst = a.contacts[e].geodesic, &aLast = a.contacts[e].getLastArc().geodesic;
-        const Geodesic &bFirst = b.contacts[e].geodesic, &bLast = b.contacts[e].getLastArc().geodesic;
+        const ShotGeodesic &aFirst = a.contacts[e].geodesic, &aLast = a.contacts[e].getLastArc().geodesic;
+        const ShotGeodesic &bFirst = b.contacts[e].geodesic, &bLast = b.contacts[e].getLastArc().geodesic;
         const double moved = std::max((aFirst.P.x - bFirst.P.x).norm(), (aLast.Q.x - bLast.Q.x).norm());
         if (!(moved < kNear * problem.getElement(static_cast<int>(e)).surface->getSize())) return false;
     }

@@ -15,7 +15,7 @@ PathIteration calcErrors(const Chain& chain, const std::vector<double>& eps, std
     errors.obstacleErrors.assign(numElements, 0.0);
     double sum = 0;
     for (std::size_t i = 0; i < chain.contacts.size(); ++i) {
-        const double square = Eigen::Map<const Vec4>(&eps[kVariations * i]).squaredNorm();
+        const double square = Eigen::Map<const Vector4>(&eps[kVariations * i]).squaredNorm();
         errors.obstacleErrors[chain.contacts[i].element] = std::sqrt(square);
         sum += square;
     }
@@ -32,7 +32,7 @@ bool correctStarts(const PathProblem& problem, const std::vector<double>& eps, P
     for (std::size_t i = 0; i < chain.contacts.size(); ++i) {
         ChainContact& contact = chain.contacts[i];
         contact.start = calcCorrectedStart(*problem.getElement(contact.element).surface, contact.start,
-                                           contact.geodesic.P, Eigen::Map<const Vec4>(&step[kVariations * i]));
+                                           contact.geodesic.P, Eigen::Map<const Vector4>(&step[kVariations * i]));
     }
     return true;
 }
@@ -52,7 +52,7 @@ IteratedPath iteratePath(const PathProblem& problem, const PathPose& pose, const
     PathJacobian jacobian;
     std::vector<double> eps;
     for (int i = 0;; ++i) {
-        if (!shootChain(problem, pose, GeodesicOptions(), chain)) break;
+        if (!shootChain(problem, pose, ShootingOptions(), chain)) break;
         result.largestError = calcPathError(chain, eps);
         result.iterations.push_back(calcErrors(chain, eps, start.size()));
         for (const ChainContact& contact : chain.contacts) result.start[contact.element] = contact.start;

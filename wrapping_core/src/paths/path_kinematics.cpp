@@ -9,7 +9,7 @@
 namespace tautline {
 namespace {
 
-void applyForce(const Pose& X_GE, const Vec3& point_G, const Vec3& force_G, SpatialForce& F_GE) {
+void applyForce(const Pose& X_GE, const Vector3& point_G, const Vector3& force_G, SpatialForce& F_GE) {
     F_GE.force += force_G;
     F_GE.moment += (point_G - X_GE.p).cross(force_G);
 }
@@ -36,16 +36,16 @@ void calcUnitForces(const PathSolution& path, const PathPose& pose, std::vector<
 }
 
 void calcDrawingPoints(const PathSolution& path, const PathProblem& problem, const PathPose& pose, double maxAngle,
-                       std::vector<Vec3>& points_G) {
+                       std::vector<Vector3>& points_G) {
     require(maxAngle > 0, "drawing points: maxAngle must be positive, but is ", maxAngle);
     points_G.clear();
-    std::vector<Vec3> arc_S;
+    std::vector<Vector3> arc_S;
     for (const StraightSegment& segment : path.segments) {
         points_G.push_back(segment.A);
         points_G.push_back(segment.B);
         const ContactArc& contact = path.getArcAfter(segment);
         if (problem.getElement(segment.toElement).isPoint() || !(contact.geodesic.length > 0)) continue;
-        const Geodesic& arc = contact.geodesic;
+        const ShotGeodesic& arc = contact.geodesic;
         const double curvature = std::max({std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN), std::abs(arc.maxKappaN),
                                            std::abs(arc.P.tauG), std::abs(arc.Q.tauG)});
         const int count = 2 + static_cast<int>(std::min(1000.0, arc.length * curvature / maxAngle));

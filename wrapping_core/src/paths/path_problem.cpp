@@ -34,19 +34,20 @@ beside the axis, since the functions of some surfaces have no gradient on it. */
 bool isEndlessAlongZ(const Surface& surface) {
     constexpr double kFar = 1e3, kBeside = 1e-3;  // in sizes
     const auto isInside = [&](double z) {
-        return surface.calcHeight(surface.getSize() * Vec3(0.6 * kBeside, 0.8 * kBeside, z)) < 0;
+        return surface.calcHeight(surface.getSize() * Vector3(0.6 * kBeside, 0.8 * kBeside, z)) < 0;
     };
     return isInside(kFar) && isInside(-kFar);
 }
 
 /** The side on which a hint asks the path to run: that of its direction, or outward at the foot of its point. Along the
 axis of an endless body there are no sides. */
-Vec3 calcSide(const StartHint& hint, const Surface& surface, bool isEndless) {
-    Vec3 side = Vec3::Constant(kNaN);
+Vector3 calcSide(const StartHint& hint, const Surface& surface, bool isEndless) {
+    Vector3 side = Vector3::Constant(kNaN);
     if (const auto* asked = std::get_if<PassOnSide>(&hint)) side = asked->direction_S;
     const auto* near = std::get_if<PassNear>(&hint);
     const bool isOnAxis = near && isEndless && !(near->point_S.head<2>().norm() > kOnTheAxis * surface.getSize());
-    if (near && !isOnAxis) side = surface.calcFrame(surface.findSurfacePoint(near->point_S), Vec3(0.48, 0.64, 0.6)).N;
+    if (near && !isOnAxis)
+        side = surface.calcFrame(surface.findSurfacePoint(near->point_S), Vector3(0.48, 0.64, 0.6)).N;
     if (isEndless && side.head<2>().norm() > 0) side.z() = 0;
     return side.normalized();
 }
@@ -57,11 +58,11 @@ bool isThroughHole(const StartHint& hint, const Surface& surface) {
     const auto* near = std::get_if<PassNear>(&hint);
     const std::optional<Hole> hole = surface.getHole();
     if (!near || !hole) return false;
-    const Vec3 over = surface.getSize() * hole->getAxis();
+    const Vector3 over = surface.getSize() * hole->getAxis();
     return hole->isBeside(near->point_S) || hole->countCrossings(near->point_S - over, near->point_S + over) != 0;
 }
 
-StartHint toStartHint(const std::optional<Vec3>& hint_S) {
+StartHint toStartHint(const std::optional<Vector3>& hint_S) {
     return hint_S ? StartHint(PassNear{*hint_S}) : StartHint();
 }
 
@@ -91,7 +92,7 @@ int PathProblem::addObstacle(std::string name, std::shared_ptr<const Surface> su
     return getNumElements() - 1;
 }
 
-int PathProblem::addObstacle(std::string name, std::shared_ptr<const Surface> surface, std::optional<Vec3> hint_S) {
+int PathProblem::addObstacle(std::string name, std::shared_ptr<const Surface> surface, std::optional<Vector3> hint_S) {
     return addObstacle(std::move(name), std::move(surface), toStartHint(hint_S));
 }
 
@@ -107,7 +108,7 @@ void PathProblem::setHint(int element, const StartHint& hint) {
     obstacle.isAskedThroughHole = isThroughHole(hint, *obstacle.surface);
 }
 
-void PathProblem::setHint(int element, std::optional<Vec3> hint_S) {
+void PathProblem::setHint(int element, std::optional<Vector3> hint_S) {
     setHint(element, toStartHint(hint_S));
 }
 

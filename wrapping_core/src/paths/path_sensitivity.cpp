@@ -8,12 +8,14 @@ namespace tautline {
 namespace {
 
 /** Rate of the unit vector of a segment whose ends move. */
-Vec3 calcDirectionRate(const StraightSegment& line, const Vec3& ARate, const Vec3& BRate) {
-    const Vec3 relative = BRate - ARate;
-    return line.length > 0 ? Vec3((relative - line.e.dot(relative) * line.e) / line.length) : Vec3(Vec3::Zero());
+Vector3 calcDirectionRate(const StraightSegment& line, const Vector3& ARate, const Vector3& BRate) {
+    const Vector3 relative = BRate - ARate;
+    return line.length > 0 ? Vector3((relative - line.e.dot(relative) * line.e) / line.length)
+                           : Vector3(Vector3::Zero());
 }
 
-void addForceRate(const Vec3& arm, const Vec3& armRate, const Vec3& force, const Vec3& forceRate, SpatialForce& rate) {
+void addForceRate(const Vector3& arm, const Vector3& armRate, const Vector3& force, const Vector3& forceRate,
+                  SpatialForce& rate) {
     rate.force += forceRate;
     rate.moment += armRate.cross(force) + arm.cross(forceRate);
 }
@@ -30,8 +32,8 @@ struct PathSensitivity::Workspace {
     const PathPose* pose = nullptr;
     Chain chain;
     PathJacobian jacobian;
-    std::vector<double> rates;         ///< eps' at constant xi, then xi': four per contact
-    std::vector<Vec3> ARates, BRates;  ///< of the segments' ends [m/s]
+    std::vector<double> rates;            ///< eps' at constant xi, then xi': four per contact
+    std::vector<Vector3> ARates, BRates;  ///< of the segments' ends [m/s]
     PathVariation prediction;
 };
 
@@ -71,8 +73,8 @@ void PathSensitivity::Workspace::calcRigidRates(const std::vector<SpatialVelocit
     for (std::size_t i = 0; i < chain.contacts.size(); ++i) {
         const ChainContact& contact = chain.contacts[i];
         const std::size_t in = contact.segmentIn, out = in + 1;
-        const Vec3& w = V_GE[contact.element].w;
-        const auto rate = [&](std::size_t segment, const Vec3& axis) {
+        const Vector3& w = V_GE[contact.element].w;
+        const auto rate = [&](std::size_t segment, const Vector3& axis) {
             const StraightSegment& line = chain.segments[segment].line;
             return calcDirectionRate(line, ARates[segment], BRates[segment]).dot(axis) + line.e.dot(w.cross(axis));
         };
@@ -87,7 +89,7 @@ void PathSensitivity::Workspace::calcRigidRates(const std::vector<SpatialVelocit
 void PathSensitivity::Workspace::addXiRates(PathVariation& variation) {
     for (std::size_t i = 0; i < chain.contacts.size(); ++i) {
         const ChainContact& contact = chain.contacts[i];
-        const Vec4 xiRate = Eigen::Map<const Vec4>(&rates[kVariations * i]);
+        const Vector4 xiRate = Eigen::Map<const Vector4>(&rates[kVariations * i]);
         BRates[contact.segmentIn] += calcStartVariations(contact.P).x * xiRate;
         ARates[contact.segmentIn + 1] += calcEndVariations(contact.Q, contact.geodesic).x * xiRate;
         if (contact.arc == 0) {
@@ -102,7 +104,7 @@ void PathSensitivity::Workspace::calcForceRates(const std::vector<SpatialVelocit
                                                 PathVariation& variation) const {
     for (std::size_t j = 0; j < chain.segments.size(); ++j) {
         const StraightSegment& line = chain.segments[j].line;
-        const Vec3 eRate = calcDirectionRate(line, ARates[j], BRates[j]);
+        const Vector3 eRate = calcDirectionRate(line, ARates[j], BRates[j]);
         const int from = line.fromElement, to = line.toElement;
         addForceRate(line.A - pose->X_GE[from].p, ARates[j] - V_GE[from].v, line.e, eRate, variation.forceRate[from]);
         addForceRate(line.B - pose->X_GE[to].p, BRates[j] - V_GE[to].v, -line.e, -eRate, variation.forceRate[to]);
@@ -114,9 +116,9 @@ bool PathSensitivity::calcVariation(const std::vector<SpatialVelocity>& V_GE, Pa
     require(w.pose != nullptr, "path sensitivity: no path was set");
     requireVelocities(V_GE, *w.pose, "path sensitivity");
     const std::size_t n = V_GE.size();
-    variation.xiRate.assign(n, Vec4::Zero());
-    variation.PRate.assign(n, Vec3::Zero());
-    variation.QRate.assign(n, Vec3::Zero());
+    variation.xiRate.assign(n, Vector4::Zero());
+    variation.PRate.assign(n, Vector3::Zero());
+    variation.QRate.assign(n, Vector3::Zero());
     variation.forceRate.assign(n, SpatialForce());
     w.calcRigidRates(V_GE);
     variation.lengthRate = 0;  // Eqn. 5.13: the geodesics' own change does not count
@@ -135,7 +137,7 @@ bool PathSensitivity::predictStarts(const std::vector<SpatialVelocity>& V_GE, do
     for (std::size_t i = 0; i < w.chain.contacts.size(); ++i) {
         const ChainContact& contact = w.chain.contacts[i];
         ContactArc& arc = path.contacts[contact.element].updArc(contact.arc);
-        const Vec4 xiRate = Eigen::Map<const Vec4>(&w.rates[kVariations * i]);
+        const Vector4 xiRate = Eigen::Map<const Vector4>(&w.rates[kVariations * i]);
         arc.start =
             calcCorrectedStart(*w.problem->getElement(contact.element).surface, arc.start, arc.geodesic.P, dt * xiRate);
     }

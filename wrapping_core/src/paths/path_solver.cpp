@@ -30,7 +30,7 @@ struct EndHeight {
 void liftEnd(const PosedProblem& scene, const EndHeight& end, PathPose& pose) {
     const Surface& surface = scene.getSurface(end.element);
     const Pose& X_GS = scene.getPose(end.element);
-    Vec3 N_S;
+    Vector3 N_S;
     surface.calcHeightAndNormal(X_GS.shiftBack(pose.X_GE[end.point].p), N_S);
     pose.X_GE[end.point].p += (kEndOnSurface * surface.getSize() - end.height) * X_GS.rotate(N_S);
 }
@@ -73,7 +73,7 @@ struct PathSolver::Workspace {
 
     PathSearch search;
     PathPose workingPose;
-    Vec3 origin_G = Vec3::Zero();  ///< of the frame of the working pose
+    Vector3 origin_G = Vector3::Zero();  ///< of the frame of the working pose
     std::vector<EndHeight> endHeights;
     std::vector<double> startLengths;  ///< of the arcs in path order, while contacts are kept
     PathSolution cold;
@@ -161,10 +161,10 @@ bool PathSolver::begin(const PathProblem& problem, const PathPose& pose, PathSol
 
 /** Where ground's origin is moved to: near the path if that lies so far away that rounding of its coordinates would
 decide about contacts. */
-Vec3 PathSolver::chooseOrigin(const PathPose& pose) {
-    const Vec3& first = pose.X_GE.front().p;
+Vector3 PathSolver::chooseOrigin(const PathPose& pose) {
+    const Vector3& first = pose.X_GE.front().p;
     const double span = (pose.X_GE.back().p - first).cwiseAbs().maxCoeff();
-    return first.cwiseAbs().maxCoeff() > kFarFromOrigin * span ? first : Vec3(Vec3::Zero());
+    return first.cwiseAbs().maxCoeff() > kFarFromOrigin * span ? first : Vector3(Vector3::Zero());
 }
 
 /** The pose in a ground whose origin is near the path, with every fixed point that lies on a surface of its span lifted

@@ -43,10 +43,10 @@ bool PathStepper::begin(const PathProblem& problem, const PathPose& pose, PathSo
 void PathStepper::shortenBrokenArcs() {
     for (ChainContact& contact : m_chain.contacts) {
         const Surface& surface = *m_problem->getElement(contact.element).surface;
-        const Vec3 anywhere = Vec3::Constant(surface.getSize());
+        const Vector3 anywhere = Vector3::Constant(surface.getSize());
         contact.start.point =
             surface.findSurfacePoint(contact.start.point.p.allFinite() ? contact.start.point.p : anywhere);
-        contact.start.tangent = surface.calcFrame(contact.start.point, Vec3::UnitX()).t;
+        contact.start.tangent = surface.calcFrame(contact.start.point, Vector3::UnitX()).t;
         contact.start.length = 0;
     }
     shootChain(*m_problem, *m_pose, m_options.geodesics, m_chain);
@@ -67,7 +67,7 @@ double PathStepper::calcStepFraction(const std::vector<double>& step) const {
 bool PathStepper::tryStep(const std::vector<double>& step, double fraction, PathSolution& path) {
     for (std::size_t i = 0; i < m_chain.contacts.size(); ++i) {
         const ChainContact& contact = m_chain.contacts[i];
-        const Vec4 correction = fraction * Eigen::Map<const Vec4>(&step[kVariations * i]);
+        const Vector4 correction = fraction * Eigen::Map<const Vector4>(&step[kVariations * i]);
         m_trial.contacts[i].start = calcCorrectedStart(*m_problem->getElement(contact.element).surface, contact.start,
                                                        contact.geodesic.P, correction);
     }

@@ -48,7 +48,7 @@ void forEachWindingPair(const PosedProblem& scene, const PathSolution& path, Vis
 }
 
 /** 1 + 2 cos of the turn between two rotations. */
-double calcTurnTrace(const Mat3& A, const Mat3& B) {
+double calcTurnTrace(const Matrix3& A, const Matrix3& B) {
     return A.cwiseProduct(B).sum();
 }
 
@@ -57,7 +57,7 @@ bool turnsFarApart(const PathPose& from, const PathPose& to, int a, int b) {
     static const double kTraceOfMost = 1 + 2 * std::cos(kMaxTurn), kTraceOfHalf = 1 + 2 * std::cos(0.5 * kMaxTurn);
     const auto turnsLittle = [&](int e) { return calcTurnTrace(from.X_GE[e].R, to.X_GE[e].R) > kTraceOfHalf; };
     if (turnsLittle(a) && turnsLittle(b)) return false;  // nearly always, and cheap
-    const Mat3 before = from.X_GE[a].R.transpose() * from.X_GE[b].R, after = to.X_GE[a].R.transpose() * to.X_GE[b].R;
+    const Matrix3 before = from.X_GE[a].R.transpose() * from.X_GE[b].R, after = to.X_GE[a].R.transpose() * to.X_GE[b].R;
     return calcTurnTrace(before, after) < kTraceOfMost;
 }
 
@@ -80,9 +80,9 @@ double calcMostChange(const PathProblem& problem, const TrackedPath& start, cons
     double change = 0;
     for (int e = 0; e < problem.getNumElements(); ++e) {
         const Pose &before = start.pose.X_GE[e], &after = pose.X_GE[e];
-        const auto calcMove = [&](const Vec3& p) { return (after * p - before * p).norm(); };
+        const auto calcMove = [&](const Vector3& p) { return (after * p - before * p).norm(); };
         const ObstacleContact& contact = start.solution.contacts[e];
-        if (problem.getElement(e).isPoint()) change += kMostForce * calcMove(Vec3::Zero());
+        if (problem.getElement(e).isPoint()) change += kMostForce * calcMove(Vector3::Zero());
         if (contact.isTouched)
             change +=
                 kMostForce * std::max(calcMove(contact.geodesic.P.x), calcMove(contact.getLastArc().geodesic.Q.x));

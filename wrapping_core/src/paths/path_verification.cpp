@@ -19,7 +19,7 @@ using Condition = PathVerification::Condition;
 /** True if a straight segment that leaves the surface at one end dips below it elsewhere. */
 bool meetsOwnSurface(const Surface& surface, const Pose& X_GS, const StraightSegment& line) {
     if (surface.isConvex() || !(line.length > 0)) return false;
-    const Vec3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.rotateBack(line.e);
+    const Vector3 A_S = X_GS.shiftBack(line.A), e_S = X_GS.rotateBack(line.e);
     // Near the tangent end the height is rounding of a square: judge beyond a margin only.
     const double s = surface.findLowestPoint(A_S, e_S, line.length);
     return surface.calcHeight(A_S + s * e_S) < -kVerificationRounding * surface.getSize();
@@ -35,7 +35,7 @@ bool isInDomain(const Surface& surface, const ContactArc& contact) {
 
 Condition findBrokenCondition(const Surface& surface, const Pose& X_GS, const ContactArc& contact,
                               const StraightSegment& in, const StraightSegment& out, double shortestArc) {
-    const Geodesic& arc = contact.geodesic;
+    const ShotGeodesic& arc = contact.geodesic;
     if (!isInDomain(surface, contact)) return Condition::OutsideDomain;
     if (!(in.e.dot(X_GS.rotate(arc.P.t)) > 0) || !(out.e.dot(X_GS.rotate(arc.Q.t)) > 0))
         return Condition::ReversedTangent;
@@ -47,7 +47,7 @@ Condition findBrokenCondition(const Surface& surface, const Pose& X_GS, const Co
 }
 
 /** Where on its arc a touched obstacle breaks a condition, in S. */
-Vec3 findPlaceOnArc(const Surface& surface, const ContactArc& contact, Condition condition, bool isAtEnd) {
+Vector3 findPlaceOnArc(const Surface& surface, const ContactArc& contact, Condition condition, bool isAtEnd) {
     const auto orStart = [&](const std::optional<GeodesicPlace>& place) {
         return place ? place->point.p : contact.geodesic.P.x;
     };
@@ -61,8 +61,8 @@ Vec3 findPlaceOnArc(const Surface& surface, const ContactArc& contact, Condition
 }
 
 /** Where a touched obstacle breaks a condition, in ground. */
-Vec3 findPlace(const Surface& surface, const Pose& X_GS, const ContactArc& contact, Condition condition,
-               const StraightSegment& in, const StraightSegment& out) {
+Vector3 findPlace(const Surface& surface, const Pose& X_GS, const ContactArc& contact, Condition condition,
+                  const StraightSegment& in, const StraightSegment& out) {
     if (condition == Condition::Penetration) {
         const StraightSegment& line = meetsOwnSurface(surface, X_GS, in) ? in : out;
         return line.A + surface.findLowestPoint(X_GS.shiftBack(line.A), X_GS.rotateBack(line.e), line.length) * line.e;

@@ -17,9 +17,10 @@ void layPointPath(const PathProblem& problem, const PathPose& pose, PathSolution
         StraightSegment& line = path.segments[numSegments++];
         line.fromElement = last, line.toElement = e;
         line.A = pose.X_GE[last].p, line.B = pose.X_GE[e].p;
-        const Vec3 AB = line.B - line.A;
+        const Vector3 AB = line.B - line.A;
         line.length = AB.norm();
-        line.e = line.length > 0 ? Vec3(AB / line.length) : Vec3(Vec3::UnitX());  // any serves if there is no way
+        line.e =
+            line.length > 0 ? Vector3(AB / line.length) : Vector3(Vector3::UnitX());  // any serves if there is no way
         path.length += line.length;
         last = e;
     }

@@ -6,26 +6,26 @@
 namespace tautline {
 namespace {
 
-Mat3 calcCrossMatrix(const Vec3& w) {
-    Mat3 result;
+Matrix3 calcCrossMatrix(const Vector3& w) {
+    Matrix3 result;
     result << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
     return result;
 }
 
 /** What a unit of v comes to while its frame turns by w (the left Jacobian of the rotation). */
-Mat3 calcTranslationMatrix(const Vec3& w) {
+Matrix3 calcTranslationMatrix(const Vector3& w) {
     constexpr double kSmall = 1e-4;  // [rad]: the terms left out are below rounding
     const double angle = w.norm(), square = angle * angle;
     const double half = angle > 0 ? std::sin(0.5 * angle) / angle : 0.5;
     const double a = 2 * half * half;
     const double b = angle < kSmall ? 1.0 / 6 - square / 120 : (angle - std::sin(angle)) / (square * angle);
-    const Mat3 W = calcCrossMatrix(w);
-    return Mat3::Identity() + a * W + b * W * W;
+    const Matrix3 W = calcCrossMatrix(w);
+    return Matrix3::Identity() + a * W + b * W * W;
 }
 
-Mat3 calcRotation(const Vec3& w) {
+Matrix3 calcRotation(const Vector3& w) {
     const double angle = w.norm();
-    if (!(angle > 0)) return Mat3::Identity();
+    if (!(angle > 0)) return Matrix3::Identity();
     return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 
@@ -45,7 +45,7 @@ Pose calcScrew(const SpatialVelocity& displacement) {
 
 SpatialVelocity calcScrewDisplacement(const Pose& X) {
     const Eigen::AngleAxisd turn(X.R);
-    const Vec3 w = turn.angle() * turn.axis();
+    const Vector3 w = turn.angle() * turn.axis();
     // Regular for all turns below 2 pi; that of an AngleAxis is at most pi.
     return {w, calcTranslationMatrix(w).inverse() * X.p};
 }
@@ -67,7 +67,7 @@ void PoseMotion::set(const PathPose& from, const std::vector<SpatialVelocity>& V
 
 double PoseMotion::calcTurnBound(int a, int b) const {
     const ElementMotion &A = m_elements[a], &B = m_elements[b];
-    const Vec3 relative = A.X_G0.rotate(A.foretold.w) - B.X_G0.rotate(B.foretold.w);
+    const Vector3 relative = A.X_G0.rotate(A.foretold.w) - B.X_G0.rotate(B.foretold.w);
     return relative.norm() + A.rest.w.norm() + B.rest.w.norm();
 }
 

@@ -43,7 +43,7 @@ void reverseTangents(const PosedProblem& scene, const std::vector<double>* start
             ContactArc& arc = path.contacts[line.toElement].updArc(line.toArc);
             const double shift = calcShift(next, arc.start.length, arc.geodesic.P, line.length);
             const Surface& surface = scene.getSurface(line.toElement);
-            arc.start = calcCorrectedStart(surface, arc.start, arc.geodesic.P, Vec4(-shift, 0, 0, shift));
+            arc.start = calcCorrectedStart(surface, arc.start, arc.geodesic.P, Vector4(-shift, 0, 0, shift));
         }
         if (leavesReversed(scene, path, line)) {
             ContactArc& arc = path.contacts[line.fromElement].updArc(line.fromArc);

@@ -21,26 +21,26 @@ constexpr int kHoleSteps = 12;        ///< towards the hole's center
 
 /** Where the straight line of the string comes from and goes to, in S. */
 struct Chord {
-    Vec3 A_S, B_S;
+    Vector3 A_S, B_S;
 };
 
-double calcAzimuth(const Vec3& p_S) {
+double calcAzimuth(const Vector3& p_S) {
     return std::atan2(p_S.y(), p_S.x());
 }
 
-Vec3 makeCylindrical(double radius, double azimuth, double z) {
+Vector3 makeCylindrical(double radius, double azimuth, double z) {
     return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
 }
 
 /** Where a ray from far outside towards the z axis of S, at this azimuth and height, meets the surface: no step is
 longer than half the height there. From a ray that passes by, the surface point under its start. */
-Vec3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
+Vector3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
     constexpr int kMaxSteps = 200;
     const double size = surface.getSize(), least = 1e-3 * size;
-    const Vec3 outward = makeCylindrical(1, azimuth, 0);
+    const Vector3 outward = makeCylindrical(1, azimuth, 0);
     double radius = kFar * size;
     for (int i = 0; i < kMaxSteps && radius > 0; ++i) {
-        const Vec3 p = radius * outward + Vec3(0, 0, z);
+        const Vector3 p = radius * outward + Vector3(0, 0, z);
         const double height = surface.calcHeight(p);
         if (!(height > least)) return surface.findSurfacePoint(p).p;
         radius -= height / 2;
@@ -49,14 +49,14 @@ Vec3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
 }
 
 /** Where the line passes the hole, moved towards the center until it lies clear of the surface. */
-Vec3 findHolePoint(const Surface& surface, const Hole& hole, const Chord& chord) {
-    Vec3 point = hole.calcPlaneCrossing(chord.A_S, chord.B_S);
+Vector3 findHolePoint(const Surface& surface, const Hole& hole, const Chord& chord) {
+    Vector3 point = hole.calcPlaneCrossing(chord.A_S, chord.B_S);
     point -= hole.getAxis().dot(point) * hole.getAxis();
     for (int i = 0; i < kHoleSteps && surface.calcHeight(point) < 0; ++i) point *= 0.8;
     return point;
 }
 
-void guide(const PathElement& element, std::monostate, const Chord& chord, std::vector<Vec3>& waypoints_S) {
+void guide(const PathElement& element, std::monostate, const Chord& chord, std::vector<Vector3>& waypoints_S) {
     const std::optional<Hole> hole = element.surface->getHole();
     if (hole && hole->countCrossings(chord.A_S, chord.B_S) != 0)
         waypoints_S.push_back(findHolePoint(*element.surface, *hole, chord));
@@ -64,9 +64,9 @@ void guide(const PathElement& element, std::monostate, const Chord& chord, std::
 
 /** The surface point under one that lies clear of it beside D: no farther out than it takes, since from far out along
 the axis of a long surface the way down would lead far along it. */
-Vec3 findPointOnSide(const Surface& surface, const Vec3& D, const Vec3& side) {
+Vector3 findPointOnSide(const Surface& surface, const Vector3& D, const Vector3& side) {
     const double size = surface.getSize();
-    Vec3 beside = D;
+    Vector3 beside = D;
     for (double height = kClear * size; height < kFar * size; height *= 2) {
         beside = D + (height - side.dot(D)) * side;
         if (surface.calcHeight(beside) > size) break;
@@ -75,10 +75,10 @@ Vec3 findPointOnSide(const Surface& surface, const Vec3& D, const Vec3& side) {
 }
 
 /** Where the chord comes nearest to the surface, or dips deepest below it. */
-Vec3 findLowestPoint(const Surface& surface, const Chord& chord) {
-    const Vec3 step = chord.B_S - chord.A_S;
+Vector3 findLowestPoint(const Surface& surface, const Chord& chord) {
+    const Vector3 step = chord.B_S - chord.A_S;
     const double length = step.norm();
-    const Vec3 e = length > 0 ? Vec3(step / length) : Vec3(Vec3::UnitX());
+    const Vector3 e = length > 0 ? Vector3(step / length) : Vector3(Vector3::UnitX());
     return chord.A_S + surface.findLowestPoint(chord.A_S, e, length) * e;
 }
 
@@ -87,7 +87,7 @@ struct CircleTangent {
     double angle;   ///< between the point and the tangent point, as seen from the axis
     double length;  ///< across the axis
 
-    CircleTangent(double radius, const Vec3& p_S) {
+    CircleTangent(double radius, const Vector3& p_S) {
         const double rho = p_S.head<2>().norm();
         angle = std::acos(std::min(1.0, radius / rho));
         length = std::sqrt(std::max(0.0, rho * rho - radius * radius));
@@ -96,7 +96,7 @@ struct CircleTangent {
 
 /** Turns about the z axis by this angle from the chord's begin to its end, as a string about a circular cylinder does:
 tangent lines and a helix, which is straight where the cylinder is unrolled. */
-void layTurn(const Surface& surface, const Chord& chord, double turn, std::vector<Vec3>& waypoints_S) {
+void layTurn(const Surface& surface, const Chord& chord, double turn, std::vector<Vector3>& waypoints_S) {
     const double middle = calcAzimuth(chord.A_S) + turn / 2;
     const double radius = findOutermostPoint(surface, middle, 0.5 * (chord.A_S.z() + chord.B_S.z())).head<2>().norm();
     const CircleTangent atA(radius, chord.A_S), atB(radius, chord.B_S);
@@ -114,7 +114,7 @@ void layTurn(const Surface& surface, const Chord& chord, double turn, std::vecto
 
 /** The turn about the axis of an endless body that brings the middle of the arc to the side asked for: of the two by
 less than a full turn the one that does; the shorter where both do; where none does, the one that comes nearer. */
-double calcTurnToSide(const Surface& surface, const Chord& chord, const Vec3& side_S) {
+double calcTurnToSide(const Surface& surface, const Chord& chord, const Vector3& side_S) {
     const double from = calcAzimuth(chord.A_S), direct = calcAzimuth(chord.B_S) - from;
     const double forward = direct - 2 * kPi * std::floor(direct / (2 * kPi));
     const double side = calcAzimuth(side_S), middle = from + forward / 2;
@@ -130,14 +130,15 @@ double calcTurnToSide(const Surface& surface, const Chord& chord, const Vec3& si
 }
 
 /** Whether the straight line is clear of an obstacle on the side that is asked for. @param D   its lowest point */
-bool isClearOnSide(const PathElement& element, const Vec3& D) {
+bool isClearOnSide(const PathElement& element, const Vector3& D) {
     return element.surface->calcHeight(D) > 0 && element.side_S.dot(D) >= -kOnTheEdge * element.surface->getSize();
 }
 
 /** Nothing where the line is clear on the side that is asked for. */
-void guideToSide(const PathElement& element, const Vec3& point_S, const Chord& chord, std::vector<Vec3>& waypoints_S) {
+void guideToSide(const PathElement& element, const Vector3& point_S, const Chord& chord,
+                 std::vector<Vector3>& waypoints_S) {
     const Surface& surface = *element.surface;
-    const Vec3 D = findLowestPoint(surface, chord);
+    const Vector3 D = findLowestPoint(surface, chord);
     if (element.isEndless) {
         if (!element.side_S.allFinite() || isClearOnSide(element, D)) return;
         layTurn(surface, chord, calcTurnToSide(surface, chord, element.side_S), waypoints_S);
@@ -148,11 +149,11 @@ void guideToSide(const PathElement& element, const Vec3& point_S, const Chord& c
     }
 }
 
-void guide(const PathElement& element, const PassOnSide&, const Chord& chord, std::vector<Vec3>& waypoints_S) {
-    guideToSide(element, Vec3::Constant(kNaN), chord, waypoints_S);
+void guide(const PathElement& element, const PassOnSide&, const Chord& chord, std::vector<Vector3>& waypoints_S) {
+    guideToSide(element, Vector3::Constant(kNaN), chord, waypoints_S);
 }
 
-void guide(const PathElement& element, const WindAround& hint, const Chord& chord, std::vector<Vec3>& waypoints_S) {
+void guide(const PathElement& element, const WindAround& hint, const Chord& chord, std::vector<Vector3>& waypoints_S) {
     const double direct = calcAzimuth(chord.B_S) - calcAzimuth(chord.A_S);
     const double turn = direct + 2 * kPi * std::round(hint.turns - direct / (2 * kPi));
     layTurn(*element.surface, chord, turn, waypoints_S);
@@ -160,14 +161,14 @@ void guide(const PathElement& element, const WindAround& hint, const Chord& chor
 
 /** Points of a ring's tube in the half plane of the hole's axis and a place beside it. */
 struct TubePoints {
-    Vec3 inner, outer, top, bottom;
+    Vector3 inner, outer, top, bottom;
 
-    TubePoints(const Surface& surface, const Vec3& axis, const Vec3& beside_S) {
+    TubePoints(const Surface& surface, const Vector3& axis, const Vector3& beside_S) {
         const double size = surface.getSize(), far = kFar * size;
-        const Vec3 aside = makeTangent(beside_S, axis);
+        const Vector3 aside = makeTangent(beside_S, axis);
         inner = surface.findSurfacePoint(1e-3 * size * aside).p;
         outer = surface.findSurfacePoint(far * aside).p;
-        const Vec3 middle = 0.5 * (inner + outer);
+        const Vector3 middle = 0.5 * (inner + outer);
         top = surface.findSurfacePoint(middle + far * axis).p;
         bottom = surface.findSurfacePoint(middle - far * axis).p;
     }
@@ -176,22 +177,22 @@ struct TubePoints {
 /** Through the hole each time and around the tube between two passages; once more around it where an end is on the
 wrong side of the ring. All in half planes, so that no step from one point to the next cuts through the tube or the
 hole. */
-void guide(const PathElement& element, const ThreadHole& hint, const Chord& chord, std::vector<Vec3>& waypoints_S) {
+void guide(const PathElement& element, const ThreadHole& hint, const Chord& chord, std::vector<Vector3>& waypoints_S) {
     const Surface& surface = *element.surface;
     const int count = std::abs(hint.passages);
     const bool isUpward = hint.passages >= 0;
     const Hole hole = *surface.getHole();  // PathProblem refuses the hint without one
-    const Vec3 axis = hole.getAxis();
+    const Vector3 axis = hole.getAxis();
     const TubePoints atA(surface, axis, chord.A_S), atB(surface, axis, chord.B_S);
     if (count == 0) {
         if (hole.countCrossings(chord.A_S, chord.B_S) != 0) waypoints_S.push_back(atA.outer);
         return;
     }
     const auto goRound = [&](const TubePoints& tube) {
-        const Vec3 &leave = isUpward ? tube.top : tube.bottom, &enter = isUpward ? tube.bottom : tube.top;
+        const Vector3 &leave = isUpward ? tube.top : tube.bottom, &enter = isUpward ? tube.bottom : tube.top;
         waypoints_S.insert(waypoints_S.end(), {leave, tube.outer, enter});
     };
-    const Vec3 through = count == 1 ? Vec3(Vec3::Zero()) : atA.inner;
+    const Vector3 through = count == 1 ? Vector3(Vector3::Zero()) : atA.inner;
     if ((axis.dot(chord.A_S) > 0) == isUpward) goRound(atA);
     waypoints_S.push_back(through);
     for (int i = 1; i < count; ++i) {
@@ -207,7 +208,7 @@ int chooseWay(const Hole& hole, const Chord& chord) {
     return isAboveA == isAboveB ? 0 : (isAboveA ? -1 : 1);
 }
 
-void guide(const PathElement& element, const PassNear& hint, const Chord& chord, std::vector<Vec3>& waypoints_S) {
+void guide(const PathElement& element, const PassNear& hint, const Chord& chord, std::vector<Vector3>& waypoints_S) {
     const int way = element.isAskedThroughHole ? chooseWay(*element.surface->getHole(), chord) : 0;
     if (way != 0) guide(element, ThreadHole{way}, chord, waypoints_S);
     if (waypoints_S.size() > 1) return;
@@ -224,7 +225,7 @@ int countAskedPassages(const PathElement& element, const Chord& chord) {
 }
 
 /** The next point that the string is sure to pass: a fixed point or a hinted one. */
-Vec3 findNextKnown(const PosedProblem& scene, int element) {
+Vector3 findNextKnown(const PosedProblem& scene, int element) {
     for (int e = element + 1; e < scene.size(); ++e) {
         if (!scene.pose.hasElement(e)) continue;
         if (scene.isPoint(e)) return scene.getPose(e).p;
@@ -234,8 +235,8 @@ Vec3 findNextKnown(const PosedProblem& scene, int element) {
 }
 
 /** @param points_S   on all arcs in turn; of arcs without length their start */
-void layAlongArcs(const Surface& surface, const PassedObstacle& obstacle, std::vector<Vec3>& points_S) {
-    std::vector<Vec3> along;
+void layAlongArcs(const Surface& surface, const PassedObstacle& obstacle, std::vector<Vector3>& points_S) {
+    std::vector<Vector3> along;
     const auto layAlong = [&](const GeodesicStart& arc) {
         along = {arc.point.p};
         if (arc.length > 0) sampleGeodesic(surface, arc, kRoughlyAlong, kArcWaypoints, along);
@@ -248,7 +249,7 @@ void layAlongArcs(const Surface& surface, const PassedObstacle& obstacle, std::v
 /** Lifted obstacles that have come between the waypoints beside them are passed where they were: on the side that is
 kept, however far that is. */
 void guideOverSunken(const PosedProblem& scene, const std::vector<PassedObstacle>& previous, Waypoints& waypoints) {
-    Vec3 last_G = Vec3::Zero();
+    Vector3 last_G = Vector3::Zero();
     for (int e = 0; e < scene.size(); ++e) {
         if (scene.isObstacle(e) && waypoints[e].empty()) {
             const auto next = std::find_if(waypoints.begin() + e, waypoints.end(),
@@ -269,31 +270,31 @@ void guideOverSunken(const PosedProblem& scene, const std::vector<PassedObstacle
 
 void calcAskedRoute(const PosedProblem& scene, Route& route) {
     route.waypoints.resize(scene.size());
-    for (std::vector<Vec3>& points : route.waypoints) points.clear();
+    for (std::vector<Vector3>& points : route.waypoints) points.clear();
     route.threading.counts.assign(scene.size(), PassageRule::kAny);
-    Vec3 last_G = Vec3::Zero();
+    Vector3 last_G = Vector3::Zero();
     for (int e = 0; e < scene.size(); ++e) {
         if (!scene.pose.hasElement(e)) continue;
         const PathElement& element = scene.problem.getElement(e);
         const Pose& X_GE = scene.getPose(e);
-        std::vector<Vec3>& points = route.waypoints[e];
+        std::vector<Vector3>& points = route.waypoints[e];
         if (element.isPoint()) {
             points.push_back(X_GE.p);
         } else {
             const Chord chord{X_GE.shiftBack(last_G), X_GE.shiftBack(findNextKnown(scene, e))};
             std::visit([&](const auto& hint) { guide(element, hint, chord, points); }, element.hint);
-            for (Vec3& p : points) p = X_GE * p;
+            for (Vector3& p : points) p = X_GE * p;
             route.threading.counts[e] = countAskedPassages(element, chord);
         }
         if (!points.empty()) last_G = points.back();
     }
 }
 
-int calcAskedPassages(const PathElement& element, const Vec3& A_S, const Vec3& B_S) {
+int calcAskedPassages(const PathElement& element, const Vector3& A_S, const Vector3& B_S) {
     return countAskedPassages(element, {A_S, B_S});
 }
 
-double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S) {
+double calcAskedTurn(const PathElement& element, const Vector3& A_S, const Vector3& B_S) {
     const Chord chord{A_S, B_S};
     const bool isDirect =
         !element.side_S.allFinite() || isClearOnSide(element, findLowestPoint(*element.surface, chord));
@@ -320,15 +321,15 @@ Route calcPreviousRoute(const PosedProblem& scene, const std::vector<PassedObsta
     for (int e = 0; e < scene.size(); ++e) {
         if (!scene.pose.hasElement(e)) continue;
         const PassedObstacle& obstacle = previous[e];
-        std::vector<Vec3>& points = route.waypoints[e];
+        std::vector<Vector3>& points = route.waypoints[e];
         if (scene.isPoint(e))
-            points = {Vec3::Zero()};
+            points = {Vector3::Zero()};
         else if (obstacle.isTouched)
             layAlongArcs(scene.getSurface(e), obstacle, points);
         else if (obstacle.passage.count != 0)
             points = {obstacle.passage.through_S};
-        for (Vec3& p : points) p = scene.getPose(e) * p;
-        points.erase(std::remove_if(points.begin(), points.end(), [](const Vec3& p) { return !p.allFinite(); }),
+        for (Vector3& p : points) p = scene.getPose(e) * p;
+        points.erase(std::remove_if(points.begin(), points.end(), [](const Vector3& p) { return !p.allFinite(); }),
                      points.end());
     }
     guideOverSunken(scene, previous, route.waypoints);
@@ -348,7 +349,7 @@ bool rethread(const PosedProblem& scene, const std::vector<PassedObstacle>& prev
             before.count - hole.countCrossings(before.A_S, chord.A_S) - hole.countCrossings(chord.B_S, before.B_S);
         route.waypoints[e].clear();
         guide(scene.problem.getElement(e), ThreadHole{count}, chord, route.waypoints[e]);
-        for (Vec3& p : route.waypoints[e]) p = X_GE * p;
+        for (Vector3& p : route.waypoints[e]) p = X_GE * p;
         isChanged = true;
     });
     return isChanged;
@@ -361,15 +362,15 @@ Route calcReleasedRoute(const PosedProblem& scene) {
     return route;
 }
 
-GeodesicStart calcArcAlong(const Surface& surface, const Pose& X_GS, const Vec3& before,
-                           const std::vector<Vec3>& points, const Vec3& after) {
-    const Vec3 in = points.front() - before, out = after - points.back();
+GeodesicStart calcArcAlong(const Surface& surface, const Pose& X_GS, const Vector3& before,
+                           const std::vector<Vector3>& points, const Vector3& after) {
+    const Vector3 in = points.front() - before, out = after - points.back();
     // Half of each edge beside the points belongs to the turning that the first and the last of them see.
-    const Vec3 along = points.size() > 1 ? Vec3(points[1] - points[0]) : out;
+    const Vector3 along = points.size() > 1 ? Vector3(points[1] - points[0]) : out;
     GeodesicStart arc;
     arc.point = surface.findSurfacePoint(X_GS.shiftBack(points.front()));
     const DarbouxFrame frame =
-        surface.calcFrame(arc.point, X_GS.rotateBack(Vec3(in.normalized() + along.normalized())));
+        surface.calcFrame(arc.point, X_GS.rotateBack(Vector3(in.normalized() + along.normalized())));
     arc.tangent = frame.t;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) arc.length += (points[k + 1] - points[k]).norm();
     if (points.size() == 1 && std::abs(frame.kappaN) > 0) {

@@ -8,7 +8,7 @@ namespace tautline {
 
 /** Points in ground through which a string is laid before it falls taut: one list for each element of the problem,
 in the order of the path; empty where nothing is known. */
-using Waypoints = std::vector<std::vector<Vec3>>;
+using Waypoints = std::vector<std::vector<Vector3>>;
 
 /** How a string is to run when it is laid anew. */
 struct Route {
@@ -23,11 +23,11 @@ void calcAskedRoute(const PosedProblem& scene, Route& route);
 
 /** By how much the asked route turns about the z axis of S past an endless body that lies alone between two points,
 with no more than a side asked for [rad]: what calcAskedRoute() lays there, without laying it. */
-double calcAskedTurn(const PathElement& element, const Vec3& A_S, const Vec3& B_S);
+double calcAskedTurn(const PathElement& element, const Vector3& A_S, const Vector3& B_S);
 
 /** How often the asked route goes through the hole of an obstacle between two points beside it, in S, along +z less
 against it; PassageRule::kAny where nothing is asked. */
-int calcAskedPassages(const PathElement& element, const Vec3& A_S, const Vec3& B_S);
+int calcAskedPassages(const PathElement& element, const Vector3& A_S, const Vector3& B_S);
 
 /** What is remembered of an obstacle of a path, so that a string can be laid along that again. */
 struct PassedObstacle {
@@ -36,7 +36,7 @@ struct PassedObstacle {
     std::vector<GeodesicStart> furtherArcs;  ///< in S
     HolePassage passage;                     ///< through its hole
     SurfacePoint keptC;                      ///< where a lifted one was watched last, with its normal; in S
-    Vec3 keptN;
+    Vector3 keptN;
 };
 
 /** @param previous   one entry per element, as calcPreviousRoute() takes it */
@@ -55,7 +55,7 @@ Route calcReleasedRoute(const PosedProblem& scene);
 
 /** The arc that a string laid along points of a surface is next to: from the first of them to the last.
 @param before, after   of the string, beside them; all in ground */
-GeodesicStart calcArcAlong(const Surface& surface, const Pose& X_GS, const Vec3& before,
-                           const std::vector<Vec3>& points, const Vec3& after);
+GeodesicStart calcArcAlong(const Surface& surface, const Pose& X_GS, const Vector3& before,
+                           const std::vector<Vector3>& points, const Vector3& after);
 
 }  // namespace tautline

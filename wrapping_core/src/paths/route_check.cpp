@@ -17,16 +17,16 @@ using Kind = RouteDeviation::Kind;
 
 /** PassNear says where outward is. */
 bool isNearPoint(const PathElement& element, const ObstacleContact& contact) {
-    const Vec3 N = contact.isTouched ? calcMiddleNormal(*element.surface, contact) : contact.clearance.N;
+    const Vector3 N = contact.isTouched ? calcMiddleNormal(*element.surface, contact) : contact.clearance.N;
     return !(element.side_S.dot(N) < -kOnTheEdge);
 }
 
 /** Where a lifted string comes nearest to a surface: past an end of the segment the place that is watched is the foot
 of the steepest descent from that end, which from afar leads elsewhere. */
-Vec3 findPlaceBeside(const Surface& surface, const Pose& X_GS, const StraightSegment& line,
-                     const LineClearance& clearance) {
+Vector3 findPlaceBeside(const Surface& surface, const Pose& X_GS, const StraightSegment& line,
+                        const LineClearance& clearance) {
     if (!surface.isConvex()) return clearance.C.p;
-    const Vec3 A_S = X_GS.shiftBack(line.A), B_S = X_GS.shiftBack(line.B);
+    const Vector3 A_S = X_GS.shiftBack(line.A), B_S = X_GS.shiftBack(line.B);
     const double length = (B_S - A_S).norm();
     if (!(length > 0)) return clearance.C.p;
     return findNearestPoint(surface, A_S + clearance.lineCoordinate / length * (B_S - A_S), clearance.C).p;
@@ -51,9 +51,10 @@ bool turnsAsOften(const WindAround& hint, double turning, bool isBetweenPoints) 
 
 /** Whether a string over an endless body, between straight lines from A and to B, turns about its axis otherwise than a
 search would begin: the short way round, or the long one if that alone leads to the side asked for. */
-bool hasComeRoundAxis(const PathElement& element, const ObstacleContact& contact, const Vec3& A_S, const Vec3& B_S) {
+bool hasComeRoundAxis(const PathElement& element, const ObstacleContact& contact, const Vector3& A_S,
+                      const Vector3& B_S) {
     constexpr double kHalfTurn = 3;  // [rad], less than pi since curvatures vary
-    const auto calcMoment = [](const Vec3& a, const Vec3& b) { return a.x() * b.y() - a.y() * b.x(); };
+    const auto calcMoment = [](const Vector3& a, const Vector3& b) { return a.x() * b.y() - a.y() * b.x(); };
     const DarbouxFrame& P = contact.geodesic.P;
     if (calcTurn(contact) < kHalfTurn) {
         // By less than a full turn: the short way if it goes the way of the angle from A to B.
@@ -68,7 +69,7 @@ bool hasComeRoundAxis(const PathElement& element, const ObstacleContact& contact
     // the straight line passes clear of that, nearest to the axis.
     const double moment = calcMoment(A_S, B_S), way = std::copysign(1.0, moment);
     const double radius = std::max(P.x.head<2>().norm(), std::abs(moment) / (B_S - A_S).head<2>().norm());
-    const auto calcTangentPoint = [&](const Vec3& p, double direction) -> Eigen::Vector2d {
+    const auto calcTangentPoint = [&](const Vector3& p, double direction) -> Eigen::Vector2d {
         const double rho2 = p.head<2>().squaredNorm();
         const double sine = direction * std::sqrt(std::max(0.0, rho2 - radius * radius));
         return Eigen::Vector2d(radius * p.x() - sine * p.y(), sine * p.x() + radius * p.y()) / rho2;
@@ -79,16 +80,16 @@ bool hasComeRoundAxis(const PathElement& element, const ObstacleContact& contact
 
 /** Whether a string over a body of another kind lies far from where a search would begin: where the line passes the
 middle of the body, or else on the side asked for. */
-bool liesElsewhere(const PathElement& element, const ObstacleContact& contact, const Vec3& A_S, const Vec3& B_S) {
-    const Vec3 step = B_S - A_S;
-    const Vec3 D = A_S + std::clamp(-A_S.dot(step) / step.squaredNorm(), 0.0, 1.0) * step;
-    const Vec3& begin = D.dot(element.side_S) < 0 ? element.side_S : D;  // a side that is not asked for is none: D
+bool liesElsewhere(const PathElement& element, const ObstacleContact& contact, const Vector3& A_S, const Vector3& B_S) {
+    const Vector3 step = B_S - A_S;
+    const Vector3 D = A_S + std::clamp(-A_S.dot(step) / step.squaredNorm(), 0.0, 1.0) * step;
+    const Vector3& begin = D.dot(element.side_S) < 0 ? element.side_S : D;  // a side that is not asked for is none: D
     return begin.dot(calcMiddleNormal(*element.surface, contact).normalized()) < kCosineOfNear * begin.norm();
 }
 
 /** Whether a string through a ring goes through it otherwise than a search would begin. */
-bool hasComeThroughOtherwise(const PathElement& element, const ObstacleContact& contact, const Vec3& A_S,
-                             const Vec3& B_S) {
+bool hasComeThroughOtherwise(const PathElement& element, const ObstacleContact& contact, const Vector3& A_S,
+                             const Vector3& B_S) {
     if (!element.hasHole || contact.isSwitchedOff || !contact.passage.isKnown()) return false;
     const int asked = calcAskedPassages(element, A_S, B_S);
     return asked != PassageRule::kAny && contact.passage.count != asked;
@@ -107,7 +108,7 @@ bool isJudged(const PosedProblem& scene, const PathSolution& path, int e) {
 RouteDeviation findContinuedDeviation(const PosedProblem& scene, const PathSolution& path) {
     const auto isKnown = [&](int e) { return scene.isPoint(e) || std::holds_alternative<PassNear>(scene.getHint(e)); };
     const std::vector<StraightSegment>& lines = path.segments;
-    Vec3 before_G = lines.front().A;
+    Vector3 before_G = lines.front().A;
     std::size_t next = 0;
     for (std::size_t i = 1; i < lines.size(); ++i) {
         const int e = lines[i].fromElement;
@@ -115,7 +116,7 @@ RouteDeviation findContinuedDeviation(const PosedProblem& scene, const PathSolut
         while (next < i || !isKnown(lines[next].toElement)) ++next;
         if (!scene.isPoint(e)) {
             const Pose& X_GS = scene.getPose(e);
-            const Vec3 A_S = X_GS.shiftBack(before_G), B_S = X_GS.shiftBack(lines[next].B);
+            const Vector3 A_S = X_GS.shiftBack(before_G), B_S = X_GS.shiftBack(lines[next].B);
             const PathElement& element = scene.problem.getElement(e);
             const auto isElsewhere = element.isEndless ? hasComeRoundAxis : liesElsewhere;
             if (hasComeThroughOtherwise(element, path.contacts[e], A_S, B_S) ||

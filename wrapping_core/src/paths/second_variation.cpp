@@ -26,7 +26,7 @@ public:
     /** Enters the arc to which the segment `in` leads. */
     void enterArc(const PosedProblem& scene, const PathSolution& path, const StraightSegment& in) {
         const int e = in.toElement;
-        const Geodesic& arc = path.getArcAfter(in).geodesic;
+        const ShotGeodesic& arc = path.getArcAfter(in).geodesic;
         // From a fixed point y : y' = l : 1; from an arc, the pivot.
         y = in.length;
         double slope = 1;
@@ -41,7 +41,7 @@ public:
         yQ = arc.a * y + arc.r * slope;
         slopeQ = arc.aDot * y + arc.rDot * slope;
     }
-    void leaveArc(const Vec3& binormal_G) {
+    void leaveArc(const Vector3& binormal_G) {
         sigmaQ = slopeQ / yQ;
         BQ = binormal_G;
     }
@@ -52,24 +52,24 @@ public:
 
 private:
     double sigmaQ = 0;  ///< slope at the end of the last arc
-    Vec3 BQ = Vec3::Zero();
+    Vector3 BQ = Vector3::Zero();
 };
 
 /** The field that stays taut behind the failing contact, taken back to the fixed point where it began, and no farther
 on: it has the sign of the pivot. @param failsAtArc   at P already, so that Q stays where it is */
 void traceBack(const PathSolution& path, const std::vector<FieldAtContact>& fields, std::size_t segment,
                bool failsAtArc, SidewaysField& direction) {
-    direction.assign(path.segments.size(), Vec2::Zero());
+    direction.assign(path.segments.size(), Vector2::Zero());
     double bQ = failsAtArc ? 0 : 1, bP = failsAtArc ? 1 : fields[segment].yP / fields[segment].yQ;
     for (std::size_t j = segment;; --j) {
-        direction[j] = Vec2(bP, bQ);
+        direction[j] = Vector2(bP, bQ);
         if (j == 0 || !(std::abs(fields[j].toPrevious) > 0)) break;
         bQ = fields[j].toPrevious * bP;
         bP = bQ * fields[j - 1].yP / fields[j - 1].yQ;
     }
     double largest = 0;
-    for (const Vec2& b : direction) largest = std::max(largest, b.cwiseAbs().maxCoeff());
-    for (Vec2& b : direction) b /= largest;
+    for (const Vector2& b : direction) largest = std::max(largest, b.cwiseAbs().maxCoeff());
+    for (Vector2& b : direction) b /= largest;
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ PathStability calcSecondVariation(const PosedProblem& scene, const PathSolution&
         const int e = in.toElement;
         if (scene.isPoint(e)) continue;
         const ContactArc& contact = path.getArcAfter(in);
-        const Geodesic& arc = contact.geodesic;
+        const ShotGeodesic& arc = contact.geodesic;
         pivots.enterArc(scene, path, in);
         if (direction) fields[j] = {pivots.y, pivots.yQ, pivots.toPrevious};
         // A path over a sphere between opposite points can turn freely: neutral, and a minimum like its neighbours.
@@ -126,11 +126,11 @@ bool moveAlongNegativeCurvature(const PosedProblem& scene, double amount, PathSo
         const StraightSegment& in = path.segments[j];
         ContactArc& contact = path.contacts[in.toElement].updArc(in.toArc);
         const Surface& surface = scene.getSurface(in.toElement);
-        const Geodesic& arc = contact.geodesic;
-        const Vec2 b = amount * surface.getSize() * direction[j];
+        const ShotGeodesic& arc = contact.geodesic;
+        const Vector2 b = amount * surface.getSize() * direction[j];
         const double turn = (b[1] - arc.a * b[0]) / arc.r;
         const double theta = std::isfinite(turn) ? std::clamp(turn, -kMaxTurn, kMaxTurn) : 0;
-        contact.start = calcCorrectedStart(surface, contact.start, arc.P, Vec4(0, b[0], theta, 0));
+        contact.start = calcCorrectedStart(surface, contact.start, arc.P, Vector4(0, b[0], theta, 0));
     }
     return true;
 }

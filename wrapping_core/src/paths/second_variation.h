@@ -9,7 +9,7 @@ namespace tautline {
 
 /** A sideways displacement of the contact points of a path, along their binormals [m]: the first column of a row moves
 P, the second Q. One row per segment of the path, for the arc to which it leads; zero where nothing moves. */
-using SidewaysField = std::vector<Vec2>;
+using SidewaysField = std::vector<Vector2>;
 
 /** The second variation of the length (path_stability.h).
 @param direction   if given and the path is a saddle: the direction of negative curvature that the first pivot that is

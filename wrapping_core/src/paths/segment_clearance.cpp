@@ -16,10 +16,10 @@ bool isOnSegment(const LineClearance& clearance, double length) {
 }
 
 /** The clearance of a line of which nothing is known yet: Newton from the segment's lowest point, at s. */
-void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, double s,
+void findFreshClearance(const Surface& surface, const Vector3& A_S, const Vector3& e_S, double length, double s,
                         LineClearance& clearance) {
     constexpr int kApproaches = 4;
-    Vec3 D = A_S + s * e_S;
+    Vector3 D = A_S + s * e_S;
     const bool isOutside = surface.calcHeight(D) > 0;
     clearance.C = surface.findSurfacePoint(D);
     // From foot to foot: the lowest point of a line is far from the nearest one where a surface is thin.
@@ -36,7 +36,7 @@ void findFreshClearance(const Surface& surface, const Vec3& A_S, const Vec3& e_S
 
 /** A line that has sunk so deep that it has no critical point on the kept side any longer, beyond the centres of
 curvature, may show one on the far side, clear of it: the height over the tangent plane at the kept place tells. */
-void staySunk(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length, LineClearance& clearance) {
+void staySunk(const Surface& surface, const Vector3& A_S, const Vector3& e_S, double length, LineClearance& clearance) {
     if (!(clearance.distance > 0) || !(clearance.N.dot(clearance.keptN) < 0)) return;
     if (!surface.isInDomain(clearance.C)) return;  // beside the surface
     const double s = std::clamp(e_S.dot(clearance.keptC.p - A_S), 0.0, length);
@@ -48,8 +48,8 @@ void staySunk(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double l
 }
 
 /** The height of one point of the line as its clearance. */
-void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double s, LineClearance& clearance) {
-    const Vec3 D = A_S + s * e_S;
+void takeHeight(const Surface& surface, const Vector3& A_S, const Vector3& e_S, double s, LineClearance& clearance) {
+    const Vector3 D = A_S + s * e_S;
     clearance.C = surface.findSurfacePoint(D);
     clearance.distance = surface.calcHeightAndNormal(D, clearance.N);
     clearance.scale = 1 / surface.getSize();
@@ -58,7 +58,7 @@ void takeHeight(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double
 
 /** Whether the line is in the surface beyond an end, which says nothing of the segment, and the segment dips below it
 between its ends. */
-bool isSunkElsewhere(const Surface& surface, const Vec3& A_S, const Vec3& e_S, double length,
+bool isSunkElsewhere(const Surface& surface, const Vector3& A_S, const Vector3& e_S, double length,
                      const LineClearance& clearance) {
     if (clearance.distance > 0 || isOnSegment(clearance, length)) return false;
     const double lowest = surface.findLowestPoint(A_S, e_S, length);
@@ -67,11 +67,11 @@ bool isSunkElsewhere(const Surface& surface, const Vec3& A_S, const Vec3& e_S, d
 
 }  // namespace
 
-void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& A_G, const Vec3& B_G,
+void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vector3& A_G, const Vector3& B_G,
                           LineClearance& clearance) {
-    const Vec3 A_S = X_GS.shiftBack(A_G), B_S = X_GS.shiftBack(B_G);
+    const Vector3 A_S = X_GS.shiftBack(A_G), B_S = X_GS.shiftBack(B_G);
     const double length = (B_S - A_S).norm();
-    const Vec3 e_S = length > 0 ? Vec3((B_S - A_S) / length) : Vec3(Vec3::UnitX());
+    const Vector3 e_S = length > 0 ? Vector3((B_S - A_S) / length) : Vector3(Vector3::UnitX());
     LineClearance kept = clearance;
     kept.found = false;
     kept.C = clearance.keptC, kept.N = clearance.keptN;
@@ -90,13 +90,13 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vec3& 
     clearance = kept;
 }
 
-void takeNearerClearance(const Surface& surface, const Pose& X_GS, const Vec3& A_G, const Vec3& B_G,
+void takeNearerClearance(const Surface& surface, const Pose& X_GS, const Vector3& A_G, const Vector3& B_G,
                          LineClearance& clearance) {
     if (!(clearance.distance > 0) || surface.isConvex()) return;
-    const Vec3 A_S = X_GS.shiftBack(A_G), B_S = X_GS.shiftBack(B_G);
+    const Vector3 A_S = X_GS.shiftBack(A_G), B_S = X_GS.shiftBack(B_G);
     const double length = (B_S - A_S).norm();
     if (!(length > 0)) return;
-    const Vec3 e_S = (B_S - A_S) / length;
+    const Vector3 e_S = (B_S - A_S) / length;
     ClosestApproach lowest{kNaN, (1 - kSamePlace) * clearance.distance};
     for (const double s : {0.0, length})
         if (const double height = surface.calcHeight(A_S + s * e_S); height < lowest.height) lowest = {s, height};

@@ -53,14 +53,14 @@ bool isAtRest(const StringFault& fault) {
 }
 
 /** Whether two obstacles meet near a place: steps to and fro between their surfaces come to where they do. */
-bool meet(const PosedProblem& scene, int e, int other, const Vec3& place_G) {
+bool meet(const PosedProblem& scene, int e, int other, const Vector3& place_G) {
     constexpr int kSteps = 8;
     constexpr double kApart = 0.1;  // in sizes
     if (!scene.isObstacle(other)) return false;
-    Vec3 p_G = place_G;
+    Vector3 p_G = place_G;
     const auto goToSurface = [&](int element) {
         const Pose& X_GS = scene.getPose(element);
-        const Vec3 from_G = p_G;
+        const Vector3 from_G = p_G;
         p_G = X_GS * scene.getSurface(element).findSurfacePoint(X_GS.shiftBack(from_G)).p;
         return (p_G - from_G).norm();
     };
@@ -77,7 +77,7 @@ bool meet(const PosedProblem& scene, int e, int other, const Vec3& place_G) {
 bool mayHaveLeftGroove(const PosedProblem& scene, const Route& route, const PathSolution& path) {
     const int e = findSideDeviation(scene, path).element;
     if (e < 0 || route.waypoints[e].empty()) return false;
-    const Vec3& place_G = route.waypoints[e][route.waypoints[e].size() / 2];
+    const Vector3& place_G = route.waypoints[e][route.waypoints[e].size() / 2];
     return meet(scene, e, e - 1, place_G) || meet(scene, e, e + 1, place_G);
 }
 
@@ -88,9 +88,9 @@ int findNextWaypoint(const Route& route, int element) {
 }
 
 /** Watches a lifted obstacle on the side of a place near its surface. */
-void watchFrom(const Surface& surface, const Vec3& place_S, LineClearance& clearance) {
+void watchFrom(const Surface& surface, const Vector3& place_S, LineClearance& clearance) {
     clearance.keptC = surface.findSurfacePoint(place_S);
-    clearance.keptN = surface.calcFrame(clearance.keptC, Vec3::UnitX()).N;
+    clearance.keptN = surface.calcFrame(clearance.keptC, Vector3::UnitX()).N;
 }
 
 /** Whether a new search is due, of a path that failed to be a minimum this many times in a row: after 1, 2, 4, 8 ...
@@ -240,13 +240,13 @@ void PathSearch::solveInserted(const Route& route, PathSolution& path) {
     path.fault = {};
     int last = 0;
     for (int e = 1; e < scene.size(); ++e) {
-        const std::vector<Vec3>& points = route.waypoints[e];
+        const std::vector<Vector3>& points = route.waypoints[e];
         ObstacleContact& contact = path.contacts[e];
         if (scene.isObstacle(e) && !contact.isSwitchedOff) {
             const Surface& surface = scene.getSurface(e);
             const Pose& X_GS = scene.getPose(e);
             const int next = findNextWaypoint(route, e + 1);
-            const Vec3 &before = route.waypoints[last].back(), &after = route.waypoints[next].front();
+            const Vector3 &before = route.waypoints[last].back(), &after = route.waypoints[next].front();
             if (points.size() > 1) {
                 contact.isTouched = true;
                 contact.start = calcArcAlong(surface, X_GS, before, points, after);
@@ -316,7 +316,7 @@ PathSearch::Rank PathSearch::freeBand(Rank rank, const Route& route, bool keepsS
     double move = kFirstBandMove;
     for (int i = 0; i < kMaxBandMoves && m_broken.condition == Condition::ConjugatePoint; ++i, move *= 2) {
         const int e = m_broken.element;
-        const Vec3 sideways_G = m_scene->getPose(e).rotate(path.contacts[e].getArc(m_broken.arc).geodesic.P.B);
+        const Vector3 sideways_G = m_scene->getPose(e).rotate(path.contacts[e].getArc(m_broken.arc).geodesic.P.B);
         m_band.move(e, move * m_scene->getSurface(e).getSize() * sideways_G);
         rank = tightenBand(kPatientBand, route, keepsSides, path);
     }

@@ -13,8 +13,8 @@ class PassageCounter {
 public:
     PassageCounter(const Hole& hole, HolePassage& passage) : m_hole(hole), m_passage(passage) {}
 
-    void start(const Vec3& p_S) { m_last = p_S; }
-    void goTo(const Vec3& p_S) {
+    void start(const Vector3& p_S) { m_last = p_S; }
+    void goTo(const Vector3& p_S) {
         const int crossings = m_hole.countCrossings(m_last, p_S);
         if (crossings != 0) m_passage.through_S = m_hole.calcPlaneCrossing(m_last, p_S);
         m_passage.count += crossings;
@@ -24,7 +24,7 @@ public:
 private:
     const Hole m_hole;
     HolePassage& m_passage;
-    Vec3 m_last = Vec3::Zero();
+    Vector3 m_last = Vector3::Zero();
 };
 
 /** The chord of a short arc passes the hole where the arc does; a long one is followed.

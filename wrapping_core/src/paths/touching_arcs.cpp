@@ -21,13 +21,13 @@ double calcTangentAngle(double radius, double along, double above, double depth)
 
 /** The start of an arc for Newton's method: that of the string from A to B, both in S, over the osculating circle at
 the place where the clearance was measured. Of length zero where the line just touches. */
-GeodesicStart calcTouchingArc(const Surface& surface, const Vec3& A_S, const Vec3& B_S,
+GeodesicStart calcTouchingArc(const Surface& surface, const Vector3& A_S, const Vector3& B_S,
                               const LineClearance& clearance) {
     const DarbouxFrame frame = surface.calcFrame(clearance.C, B_S - A_S);
     const double radius = 1 / std::max(std::abs(frame.kappaN), 1e-3 * clearance.scale);
     const double most = std::min(radius, kMostHalf * surface.getSize());
-    const auto calcHalf = [&](const Vec3& end_S, double sign) {
-        const Vec3 from = end_S - clearance.C.p;
+    const auto calcHalf = [&](const Vector3& end_S, double sign) {
+        const Vector3 from = end_S - clearance.C.p;
         const double angle = calcTangentAngle(radius, sign * frame.t.dot(from), frame.N.dot(from), -clearance.distance);
         return std::clamp(radius * angle, 0.0, most);
     };
@@ -41,12 +41,12 @@ GeodesicStart calcTouchingArc(const Surface& surface, const Vec3& A_S, const Vec
 
 /** The section of a surface by the plane through a segment and a direction N out of it, over where the segment is below
 the surface: points of it in order, and first and last the segment's ends. */
-std::vector<Vec3> calcSection(const Surface& surface, const Vec3& A_S, const Vec3& B_S, const Vec3& N_S) {
+std::vector<Vector3> calcSection(const Surface& surface, const Vector3& A_S, const Vector3& B_S, const Vector3& N_S) {
     constexpr int kSamples = 96, kMaxMarches = 100;
     const double atSurface = 1e-6 * surface.getSize();
-    std::vector<Vec3> section{A_S};
+    std::vector<Vector3> section{A_S};
     for (int i = 1; i < kSamples; ++i) {
-        Vec3 p = A_S + i * (B_S - A_S) / kSamples;
+        Vector3 p = A_S + i * (B_S - A_S) / kSamples;
         double height = surface.calcHeight(p);
         if (height > 0) continue;
         // Outwards by the depth, which is no more than the way to the surface.
@@ -61,12 +61,12 @@ std::vector<Vec3> calcSection(const Surface& surface, const Vec3& A_S, const Vec
 }
 
 /** Indices of the hull of a plane polyline on the side of N, first and last included. */
-std::vector<int> findHull(const std::vector<Vec3>& points, const Vec3& along, const Vec3& N_S) {
+std::vector<int> findHull(const std::vector<Vector3>& points, const Vector3& along, const Vector3& N_S) {
     std::vector<int> hull;
     for (int k = 0; k < static_cast<int>(points.size()); ++k) {
         const auto isBelow = [&] {
-            const Vec3& a = points[hull[hull.size() - 2]];
-            const Vec3 toLast = points[hull.back()] - a, toNext = points[k] - a;
+            const Vector3& a = points[hull[hull.size() - 2]];
+            const Vector3 toLast = points[hull.back()] - a, toNext = points[k] - a;
             return along.dot(toLast) * N_S.dot(toNext) >= N_S.dot(toLast) * along.dot(toNext);
         };
         while (hull.size() >= 2 && isBelow()) hull.pop_back();
@@ -76,13 +76,14 @@ std::vector<int> findHull(const std::vector<Vec3>& points, const Vec3& along, co
 }
 
 /** An arc over each run of neighbors that are on the hull of the section. */
-std::vector<GeodesicStart> calcArcsOfHull(const Surface& surface, const Vec3& A_S, const Vec3& B_S, const Vec3& N_S) {
-    const Vec3 along = (B_S - A_S).normalized();
-    const std::vector<Vec3> section = calcSection(surface, A_S, B_S, N_S);
+std::vector<GeodesicStart> calcArcsOfHull(const Surface& surface, const Vector3& A_S, const Vector3& B_S,
+                                          const Vector3& N_S) {
+    const Vector3 along = (B_S - A_S).normalized();
+    const std::vector<Vector3> section = calcSection(surface, A_S, B_S, N_S);
     const std::vector<int> hull = findHull(section, along, N_S);
     std::vector<GeodesicStart> arcs;
     for (std::size_t i = 1; i + 1 < hull.size(); ++i) {
-        const Vec3& p = section[hull[i]];
+        const Vector3& p = section[hull[i]];
         if (i > 1 && hull[i] == hull[i - 1] + 1) {
             arcs.back().length += (p - section[hull[i - 1]]).norm();
             continue;
@@ -97,8 +98,8 @@ std::vector<GeodesicStart> calcArcsOfHull(const Surface& surface, const Vec3& A_
 
 }  // namespace
 
-GeodesicStart calcTouchingArcs(const Surface& surface, const Vec3& A_S, const Vec3& B_S, const LineClearance& clearance,
-                               std::vector<GeodesicStart>& further) {
+GeodesicStart calcTouchingArcs(const Surface& surface, const Vector3& A_S, const Vector3& B_S,
+                               const LineClearance& clearance, std::vector<GeodesicStart>& further) {
     further.clear();
     if (surface.isConvex() || !(surface.calcFrame(clearance.C, B_S - A_S).kappaN > 0))
         return calcTouchingArc(surface, A_S, B_S, clearance);

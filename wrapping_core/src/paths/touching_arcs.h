@@ -11,7 +11,7 @@ one over the place where the clearance was measured; where the surface is hollow
 by the plane through the segment and the normal there.
 @param further   the arcs after the first, in path order
 @return the first */
-GeodesicStart calcTouchingArcs(const Surface& surface, const Vec3& A_S, const Vec3& B_S, const LineClearance& clearance,
-                               std::vector<GeodesicStart>& further);
+GeodesicStart calcTouchingArcs(const Surface& surface, const Vector3& A_S, const Vector3& B_S,
+                               const LineClearance& clearance, std::vector<GeodesicStart>& further);
 
 }  // namespace tautline

@@ -14,7 +14,7 @@ template class ImplicitShape<Blend>;
 namespace {
 
 /** Signed distance of a part in the blend's frame. */
-ImplicitValue calcPartDistance(const BlendPart& part, const Vec3& p_S) {
+ImplicitValue calcPartDistance(const BlendPart& part, const Vector3& p_S) {
     const Pose& X = part.X_SP;
     const ImplicitValue own = calcSignedDistance(*part.surface, X.shiftBack(p_S));
     return {own.f, X.rotate(own.gradient), X.R * own.hessian * X.R.transpose()};
@@ -26,21 +26,21 @@ ImplicitValue blend(const ImplicitValue& a, const ImplicitValue& b, double k) {
     if (std::abs(x) >= k) return x < 0 ? a : b;
     const double sign = x < 0 ? -1 : 1, rest = 1 - std::abs(x) / k;
     const double m_x = -0.5 * sign * (1 - rest * rest), m_xx = -rest / k;  // by x, at constant a + b
-    const Vec3 gradient_x = a.gradient - b.gradient;
+    const Vector3 gradient_x = a.gradient - b.gradient;
     return {std::min(a.f, b.f) - k / 6 * rest * rest * rest, 0.5 * (a.gradient + b.gradient) + m_x * gradient_x,
             0.5 * (a.hessian + b.hessian) + m_x * (a.hessian - b.hessian) + m_xx * gradient_x * gradient_x.transpose()};
 }
 
 void checkPart(const BlendPart& part, std::size_t index) {
     require(part.surface != nullptr, "blend: part ", index, " has no surface");
-    const SurfacePoint anywhere = part.surface->findSurfacePoint(Vec3::Constant(part.surface->getSize()));
+    const SurfacePoint anywhere = part.surface->findSurfacePoint(Vector3::Constant(part.surface->getSize()));
     require(part.surface->calcDomainMargin(anywhere) == kInfinity, "blend: part ", index, ", ",
             part.surface->getDescription(), ", has an edge, but parts must be closed or endless");
     require(part.X_SP.p.allFinite() && part.X_SP.R.allFinite(), "blend: the pose of part ", index, " is not finite");
     constexpr double kRounding = 1e-9;
-    require(
-        (part.X_SP.R.transpose() * part.X_SP.R - Mat3::Identity()).norm() < kRounding && part.X_SP.R.determinant() > 0,
-        "blend: the rotation of part ", index, " is none: its columns must be orthonormal and right-handed");
+    require((part.X_SP.R.transpose() * part.X_SP.R - Matrix3::Identity()).norm() < kRounding &&
+                part.X_SP.R.determinant() > 0,
+            "blend: the rotation of part ", index, " is none: its columns must be orthonormal and right-handed");
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ std::string Blend::getDescription() const {
     return text + ")";
 }
 
-ImplicitValue Blend::calcImplicit(const Vec3& p_S) const {
+ImplicitValue Blend::calcImplicit(const Vector3& p_S) const {
     const double k = 2 * std::sqrt(2) * m_radius;
     ImplicitValue value = calcPartDistance(m_parts.front(), p_S);
     for (std::size_t i = 1; i < m_parts.size(); ++i) value = blend(value, calcPartDistance(m_parts[i], p_S), k);

@@ -61,9 +61,9 @@ BSplinePatch BSplinePatch::interpolateHeights(const ParameterDomain& domain, con
     Eigen::Matrix3Xd points(3, numU * numV);
     for (int i = 0; i < numU; ++i)
         for (int j = 0; j < numV; ++j) {
-            const Vec2 at(numU > 1 ? i / (numU - 1.0) : 0, numV > 1 ? j / (numV - 1.0) : 0);
-            const Vec2 uv = domain.min + at.cwiseProduct(domain.max - domain.min);
-            points.col(i * numV + j) = Vec3(uv[0], uv[1], heights(i, j));
+            const Vector2 at(numU > 1 ? i / (numU - 1.0) : 0, numV > 1 ? j / (numV - 1.0) : 0);
+            const Vector2 uv = domain.min + at.cwiseProduct(domain.max - domain.min);
+            points.col(i * numV + j) = Vector3(uv[0], uv[1], heights(i, j));
         }
     return interpolate(domain, numU, numV, points, true, normalSign);
 }
@@ -74,12 +74,12 @@ BSplinePatch BSplinePatch::makeHeightPatch(const ParameterDomain& domain, const 
     const int numU = static_cast<int>(heights.rows()), numV = static_cast<int>(heights.cols());
     require(numU >= 4 && numV >= 4, "B-spline patch: needs at least 4 control points in each direction, got ", numU,
             " by ", numV);
-    const Vec2 cell = (domain.max - domain.min).cwiseQuotient(Vec2(numU - 3, numV - 3));
+    const Vector2 cell = (domain.max - domain.min).cwiseQuotient(Vector2(numU - 3, numV - 3));
     Eigen::Matrix3Xd controls(3, numU * numV);
     for (int i = 0; i < numU; ++i)
         for (int j = 0; j < numV; ++j) {
-            const Vec2 uv = domain.min + cell.cwiseProduct(Vec2(i - 1, j - 1));
-            controls.col(i * numV + j) = Vec3(uv[0], uv[1], heights(i, j));
+            const Vector2 uv = domain.min + cell.cwiseProduct(Vector2(i - 1, j - 1));
+            controls.col(i * numV + j) = Vector3(uv[0], uv[1], heights(i, j));
         }
     return BSplinePatch(domain, numU, numV, controls, true, normalSign);
 }
@@ -101,13 +101,13 @@ BSplinePatch::Basis BSplinePatch::calcBasis(double coordinate, double min, doubl
     return basis;
 }
 
-void BSplinePatch::calcPartials(const Vec2& uv, PatchPartials& partials) const {
+void BSplinePatch::calcPartials(const Vector2& uv, PatchPartials& partials) const {
     const ParameterDomain& domain = getDomain();
     const Basis inU = calcBasis(uv[0], domain.min[0], domain.max[0], m_numU);
     const Basis inV = calcBasis(uv[1], domain.min[1], domain.max[1], m_numV);
     partials.setZero();
     for (int i = 0; i < 4; ++i) {
-        const Mat3 row = m_controlPoints.middleCols<4>((inU.first + i) * m_numV + inV.first) * inV.value.transpose();
+        const Matrix3 row = m_controlPoints.middleCols<4>((inU.first + i) * m_numV + inV.first) * inV.value.transpose();
         for (int k = 0; k < 3; ++k) partials.middleCols<3>(3 * k) += inU.value(k, i) * row;
     }
 }

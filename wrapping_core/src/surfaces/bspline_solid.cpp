@@ -69,9 +69,9 @@ void sumSplines(const float* controls, std::ptrdiff_t strideX, std::ptrdiff_t st
     }
     const auto sum = [&](int k, int l, int m) { return (splines.z.row(m).transpose().array() * sums[k][l]).sum(); };
     value.f = sum(0, 0, 0);
-    value.gradient = Vec3(sum(1, 0, 0), sum(0, 1, 0), sum(0, 0, 1));
+    value.gradient = Vector3(sum(1, 0, 0), sum(0, 1, 0), sum(0, 0, 1));
     if constexpr (kOrder == 2) {
-        Mat3& H = value.hessian;
+        Matrix3& H = value.hessian;
         H(0, 0) = sum(2, 0, 0), H(1, 1) = sum(0, 2, 0), H(2, 2) = sum(0, 0, 2);
         H(0, 1) = H(1, 0) = sum(1, 1, 0), H(0, 2) = H(2, 0) = sum(1, 0, 1), H(1, 2) = H(2, 1) = sum(0, 1, 1);
     }
@@ -137,11 +137,11 @@ std::string BSplineSolid::getDescription() const {
 
 Eigen::AlignedBox3d BSplineSolid::calcBox() const {
     const double brick = SolidGrid::kBrick * m_grid.spacing;
-    const Vec3 sides(m_grid.numBricks[0], m_grid.numBricks[1], m_grid.numBricks[2]);
+    const Vector3 sides(m_grid.numBricks[0], m_grid.numBricks[1], m_grid.numBricks[2]);
     return {m_grid.origin, m_grid.origin + brick * sides};
 }
 
-std::int32_t BSplineSolid::findBrick(const Vec3& place, Vec3& inBrick) const {
+std::int32_t BSplineSolid::findBrick(const Vector3& place, Vector3& inBrick) const {
     std::size_t index = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const double inBricks = place[axis] / SolidGrid::kBrick;
@@ -154,7 +154,7 @@ std::int32_t BSplineSolid::findBrick(const Vec3& place, Vec3& inBrick) const {
 }
 
 template <int kOrder>
-void BSplineSolid::calcNear(const float* controls, const Vec3& inBrick, ImplicitValue& value) const {
+void BSplineSolid::calcNear(const float* controls, const Vector3& inBrick, ImplicitValue& value) const {
     constexpr int kControls = SolidGrid::kControls;
     std::array<int, 3> cell;
     for (int axis = 0; axis < 3; ++axis) cell[axis] = std::min(static_cast<int>(inBrick[axis]), SolidGrid::kBrick - 1);
@@ -167,10 +167,10 @@ void BSplineSolid::calcNear(const float* controls, const Vec3& inBrick, Implicit
 
 /** The spline at the place brought into the box of coarse cells, plus sqrt(margin^2 + |p - that place|^2) - margin. */
 template <int kOrder>
-void BSplineSolid::calcFar(const Vec3& p, ImplicitValue& value) const {
+void BSplineSolid::calcFar(const Vector3& p, ImplicitValue& value) const {
     const double margin = m_grid.farSpacing;
     const std::array<int, 3>& counts = m_grid.numFarControls;
-    Vec3 beyond, slope, bend;
+    Vector3 beyond, slope, bend;
     std::array<int, 3> cell;
     Splines splines;
     CubicBSplines* const along[] = {&splines.x, &splines.y, &splines.z};
@@ -190,19 +190,19 @@ void BSplineSolid::calcFar(const Vec3& p, ImplicitValue& value) const {
     const double distance = std::sqrt(margin * margin + beyond.squaredNorm());
     value.f += distance - margin;
     // By the chain rule, along each axis: the place has `slope` and `bend`, what is beyond it 1 - slope and -bend.
-    const Vec3 away = beyond / distance, rate = (Vec3::Ones() - slope).cwiseProduct(away);
+    const Vector3 away = beyond / distance, rate = (Vector3::Ones() - slope).cwiseProduct(away);
     if constexpr (kOrder == 2) {
         value.hessian = value.hessian.cwiseProduct(slope * slope.transpose());
-        const Vec3 curved = bend.cwiseProduct(value.gradient - away);
-        value.hessian.diagonal() += curved + (Vec3::Ones() - slope).cwiseAbs2() / distance;
+        const Vector3 curved = bend.cwiseProduct(value.gradient - away);
+        value.hessian.diagonal() += curved + (Vector3::Ones() - slope).cwiseAbs2() / distance;
         value.hessian -= rate * rate.transpose() / distance;
     }
     value.gradient = slope.cwiseProduct(value.gradient) + rate;
 }
 
 template <int kOrder>
-void BSplineSolid::calcFunction(const Vec3& p, ImplicitValue& value) const {
-    Vec3 inBrick;
+void BSplineSolid::calcFunction(const Vector3& p, ImplicitValue& value) const {
+    Vector3 inBrick;
     const std::int32_t brick = findBrick((p - m_grid.origin) * m_inverseSpacing, inBrick);
     if (brick >= 0) {
         calcNear<kOrder>(m_grid.controls.data() + std::ptrdiff_t(brick) * SolidGrid::kBrickControls, inBrick, value);
@@ -222,9 +222,9 @@ void BSplineSolid::calcFunction(const Vec3& p, ImplicitValue& value) const {
     const double range = m_grid.blendEnd - m_grid.blendBegin;
     const Step step((std::abs(value.f) - m_grid.blendBegin) / range);
     const double slope = side * step.slope / range, apart = far.f - value.f;
-    const Vec3 gradient = value.gradient, apartGradient = far.gradient - gradient;
+    const Vector3 gradient = value.gradient, apartGradient = far.gradient - gradient;
     if constexpr (kOrder == 2) {
-        const Mat3 cross = gradient * apartGradient.transpose();
+        const Matrix3 cross = gradient * apartGradient.transpose();
         value.hessian = (1 - step.value + slope * apart) * value.hessian + step.value * far.hessian +
                         slope * (cross + cross.transpose()) +
                         apart * step.bend / (range * range) * (gradient * gradient.transpose());
@@ -233,7 +233,7 @@ void BSplineSolid::calcFunction(const Vec3& p, ImplicitValue& value) const {
     value.f += step.value * apart;
 }
 
-ImplicitValue BSplineSolid::calcImplicit(const Vec3& p) const {
+ImplicitValue BSplineSolid::calcImplicit(const Vector3& p) const {
     ImplicitValue value;
     calcFunction<2>(p, value);
     return value;
@@ -241,11 +241,11 @@ ImplicitValue BSplineSolid::calcImplicit(const Vec3& p) const {
 
 /** f over the length of its gradient, which is 1 but where smoothing has rounded a ridge of the distance off: there f
 itself is nearer to the distance. */
-double BSplineSolid::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
+double BSplineSolid::calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const {
     ImplicitValue value;
     calcFunction<1>(p_S, value);
     const double slope = value.gradient.norm();
-    N_S = slope > 0 ? Vec3(value.gradient / slope) : Vec3(Vec3::UnitX());
+    N_S = slope > 0 ? Vector3(value.gradient / slope) : Vector3(Vector3::UnitX());
     return value.f / std::max(slope, kLeastSlope);
 }
 

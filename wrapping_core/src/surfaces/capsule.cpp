@@ -20,15 +20,15 @@ Capsule::Capsule(double radius, double length, double capHeight)
     requireLength(capHeight, "capsule: cap height");
 }
 
-SurfacePoint Capsule::findSurfacePoint(const Vec3& p_S) const {
-    const Vec3 onAxis(0, 0, std::clamp(p_S.z(), -0.5 * m_length, 0.5 * m_length)), q = p_S - onAxis;
+SurfacePoint Capsule::findSurfacePoint(const Vector3& p_S) const {
+    const Vector3 onAxis(0, 0, std::clamp(p_S.z(), -0.5 * m_length, 0.5 * m_length)), q = p_S - onAxis;
     const double b = q.head<2>().squaredNorm() / (m_radius * m_radius), w = q.z() / m_capHeight, a = w * w * w * w;
     if (a < 1 && b < 0.25 * (1 - a)) {
         // About the axis the steepest descent leads out through the tip, however far that is: begin half way to the
         // side.
         const double rho = p_S.head<2>().norm(), half = 0.5 * m_radius * std::sqrt(1 - a);
-        const Vec2 outward = rho > 0 ? Vec2(p_S.head<2>() / rho) : Vec2(Vec2::UnitX());
-        return ImplicitShape::findSurfacePoint(Vec3(half * outward.x(), half * outward.y(), p_S.z()));
+        const Vector2 outward = rho > 0 ? Vector2(p_S.head<2>() / rho) : Vector2(Vector2::UnitX());
+        return ImplicitShape::findSurfacePoint(Vector3(half * outward.x(), half * outward.y(), p_S.z()));
     }
     if (!(b + a > 4)) return ImplicitShape::findSurfacePoint(p_S);
     // onAxis + k q with a k^4 + b k^2 = 1, then the foot of a point that lies on the surface but for rounding
@@ -41,7 +41,7 @@ std::string Capsule::getDescription() const {
 }
 
 /** On the side rho = r sqrt(1 - w^4), w = (|v| - L/2)/c; at the tips |z| = L/2 + c (1 - rho^2/r^2)^(1/4). */
-ParametricValue ParametricCapsule::calcParametric(const Vec2& uv, int chart) const {
+ParametricValue ParametricCapsule::calcParametric(const Vector2& uv, int chart) const {
     const double r = getTwin().getRadius(), c = getTwin().getCapHeight(), half = 0.5 * getTwin().getLength();
     if (chart == 0) {
         const double side = uv[1] < 0 ? -1 : 1, w = std::max(std::abs(uv[1]) - half, 0.0) / c, w2 = w * w;
@@ -63,18 +63,18 @@ ParametricValue ParametricCapsule::calcParametric(const Vec2& uv, int chart) con
 }
 
 /** Kept to where the chart has slopes. */
-Vec2 ParametricCapsule::calcNearbyParameters(const Vec3& p_S, int chart) const {
+Vector2 ParametricCapsule::calcNearbyParameters(const Vector3& p_S, int chart) const {
     constexpr double kEdge = 0.95;
     if (chart == 0) {
         const double end = 0.5 * getTwin().getLength() + kEdge * getTwin().getCapHeight();
         return {std::atan2(p_S.y(), p_S.x()), std::clamp(p_S.z(), -end, end)};
     }
     const double rho = p_S.head<2>().norm(), most = kEdge * getTwin().getRadius(), k = rho > most ? most / rho : 1;
-    return chart == 1 ? Vec2(k * p_S.x(), k * p_S.y()) : Vec2(k * p_S.y(), k * p_S.x());
+    return chart == 1 ? Vector2(k * p_S.x(), k * p_S.y()) : Vector2(k * p_S.y(), k * p_S.x());
 }
 
 /** By the distance from the axis: in the middle of a cap either kind of chart will do. */
-int ParametricCapsule::chooseChart(const Vec3& p_S, const Vec3& /*t_S*/, int current) const {
+int ParametricCapsule::chooseChart(const Vector3& p_S, const Vector3& /*t_S*/, int current) const {
     const double rho2 = p_S.head<2>().squaredNorm() / (getTwin().getRadius() * getTwin().getRadius());
     const int tip = p_S.z() < 0 ? 2 : 1;
     if (std::abs(p_S.z()) <= 0.5 * getTwin().getLength() || rho2 > 0.8) return 0;

@@ -19,10 +19,11 @@ struct Sample {
 
 class LineHeights {
 public:
-    LineHeights(const Surface& surface, const Vec3& A_S, const Vec3& e_S) : m_surface(surface), m_A(A_S), m_e(e_S) {}
+    LineHeights(const Surface& surface, const Vector3& A_S, const Vector3& e_S)
+        : m_surface(surface), m_A(A_S), m_e(e_S) {}
 
     Sample operator()(double s) const {
-        Vec3 N;
+        Vector3 N;
         const double height = m_surface.calcHeightAndNormal(m_A + s * m_e, N);
         return {s, height, N.dot(m_e)};
     }
@@ -53,12 +54,12 @@ public:
 
 private:
     const Surface& m_surface;
-    const Vec3 m_A, m_e;
+    const Vector3 m_A, m_e;
 };
 
 }  // namespace
 
-std::optional<ClosestApproach> findClosestApproach(const Surface& surface, const Vec3& A_S, const Vec3& e_S,
+std::optional<ClosestApproach> findClosestApproach(const Surface& surface, const Vector3& A_S, const Vector3& e_S,
                                                    double length, double bound) {
     const LineHeights calc(surface, A_S, e_S);
     const double size = surface.getSize();

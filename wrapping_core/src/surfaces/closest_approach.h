@@ -19,7 +19,7 @@ may be as long as the height allows. Heights are taken to change by no more than
 nearer to each other than a quarter of the surface's size or of their height may be missed, and on a segment of more
 than a hundred steps those nearer than a few such quarters.
 @param length   of the segment [m] */
-std::optional<ClosestApproach> findClosestApproach(const Surface& surface, const Vec3& A_S, const Vec3& e_S,
+std::optional<ClosestApproach> findClosestApproach(const Surface& surface, const Vector3& A_S, const Vector3& e_S,
                                                    double length, double bound);
 
 }  // namespace tautline

@@ -36,27 +36,27 @@ double Cone::calcDomainMargin(const SurfacePoint& point) const {
 }
 
 /** The nearest point; beside the apex where that is nearest. */
-SurfacePoint Cone::findSurfacePoint(const Vec3& p_S) const {
+SurfacePoint Cone::findSurfacePoint(const Vector3& p_S) const {
     constexpr double kBesideApex = 1e-9;  // in radii: has a normal, and is out of the domain
     const double rho = std::hypot(p_S.x(), p_S.y());
-    const Vec3 radial = rho > 0 ? Vec3(p_S.x() / rho, p_S.y() / rho, 0) : Vec3(Vec3::UnitX());
+    const Vector3 radial = rho > 0 ? Vector3(p_S.x() / rho, p_S.y() / rho, 0) : Vector3(Vector3::UnitX());
     const double fromApex = std::max(rho * m_sine + p_S.z() * m_cosine, kBesideApex * m_radius);
-    return {fromApex * (m_sine * radial + m_cosine * Vec3::UnitZ())};
+    return {fromApex * (m_sine * radial + m_cosine * Vector3::UnitZ())};
 }
 
 /** On the unrolled cone, with polar coordinates (distance from the apex, angle about it = turning about the
 axis times sin(alpha)), the geodesic is straight: m0 + s cos(psi) along the start's ray, s sin(psi) across. */
-void Cone::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Geodesic& geodesic) const {
+void Cone::shootGeodesic(const GeodesicStart& start, const ShootingOptions&, ShotGeodesic& geodesic) const {
     const DarbouxFrame P = calcFrame(start.point, start.tangent);
     const double rho = std::hypot(P.x.x(), P.x.y()), m0 = P.x.norm(), length = start.length;
-    const Vec3 radial(P.x.x() / rho, P.x.y() / rho, 0), hoop(-radial.y(), radial.x(), 0);
-    const Vec3 ray = m_sine * radial + m_cosine * Vec3::UnitZ();
+    const Vector3 radial(P.x.x() / rho, P.x.y() / rho, 0), hoop(-radial.y(), radial.x(), 0);
+    const Vector3 ray = m_sine * radial + m_cosine * Vector3::UnitZ();
     const double along = P.t.dot(ray), across = P.t.dot(hoop);
     const double x = m0 + length * along, y = length * across, m1 = std::hypot(x, y);
     const double unrolled = std::atan2(y, x), turn = unrolled / m_sine;
-    const Vec3 endRadial = std::cos(turn) * radial + std::sin(turn) * hoop;
-    const Vec3 endHoop = std::cos(turn) * hoop - std::sin(turn) * radial;
-    const Vec3 endRay = m_sine * endRadial + m_cosine * Vec3::UnitZ();
+    const Vector3 endRadial = std::cos(turn) * radial + std::sin(turn) * hoop;
+    const Vector3 endHoop = std::cos(turn) * hoop - std::sin(turn) * radial;
+    const Vector3 endRay = m_sine * endRadial + m_cosine * Vector3::UnitZ();
     const double c = std::cos(unrolled), s = std::sin(unrolled);
     geodesic.P = P;
     geodesic.endPoint = {m1 * endRay};

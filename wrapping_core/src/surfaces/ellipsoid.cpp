@@ -10,7 +10,7 @@ template class ImplicitShape<Ellipsoid>;
 template class ParametricShape<ParametricEllipsoid>;
 template class ParametricTwin<ParametricEllipsoid, Ellipsoid>;
 
-Ellipsoid::Ellipsoid(const Vec3& semiAxes)
+Ellipsoid::Ellipsoid(const Vector3& semiAxes)
     : CentralQuadric(semiAxes.cwiseProduct(semiAxes).cwiseInverse(), semiAxes.minCoeff()), m_semiAxes(semiAxes) {
     requireLength(semiAxes.x(), "ellipsoid: semi-axis x");
     requireLength(semiAxes.y(), "ellipsoid: semi-axis y");

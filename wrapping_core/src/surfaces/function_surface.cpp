@@ -49,48 +49,48 @@ ImplicitFunctionSurface::ImplicitFunctionSurface(std::string description, double
     require(m_full != nullptr, "implicit function surface: needs a function");
 }
 
-Vec3 ImplicitFunctionSurface::calcGradient(const Vec3& p) const {
+Vector3 ImplicitFunctionSurface::calcGradient(const Vector3& p) const {
     if (m_gradient) return m_gradient(p);
-    Vec3 gradient;
+    Vector3 gradient;
     for (int i = 0; i < 3; ++i)
-        gradient[i] = differentiate([&](double h) { return m_value(p + h * Vec3::Unit(i)); }, kFirstStep * m_size);
+        gradient[i] = differentiate([&](double h) { return m_value(p + h * Vector3::Unit(i)); }, kFirstStep * m_size);
     return gradient;
 }
 
 /** From the gradient if there is one; else second differences along axes and diagonals:
 4 f_xy = f'' along (1, 1) - f'' along (1, -1). */
-Mat3 ImplicitFunctionSurface::calcHessian(const Vec3& p, double f) const {
+Matrix3 ImplicitFunctionSurface::calcHessian(const Vector3& p, double f) const {
     if (m_hessian) return m_hessian(p);
-    Mat3 hessian;
+    Matrix3 hessian;
     if (m_gradient) {
         for (int i = 0; i < 3; ++i)
             hessian.col(i) =
-                differentiate([&](double h) { return m_gradient(p + h * Vec3::Unit(i)); }, kFirstStep * m_size);
+                differentiate([&](double h) { return m_gradient(p + h * Vector3::Unit(i)); }, kFirstStep * m_size);
         return 0.5 * (hessian + hessian.transpose());
     }
-    const auto along = [&](const Vec3& direction) {
+    const auto along = [&](const Vector3& direction) {
         return differentiateTwice([&](double h) { return m_value(p + h * direction); }, f, kSecondStep * m_size);
     };
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
-        hessian(i, i) = along(Vec3::Unit(i));
+        hessian(i, i) = along(Vector3::Unit(i));
         hessian(i, j) = hessian(j, i) =
-            0.25 * (along(Vec3::Unit(i) + Vec3::Unit(j)) - along(Vec3::Unit(i) - Vec3::Unit(j)));
+            0.25 * (along(Vector3::Unit(i) + Vector3::Unit(j)) - along(Vector3::Unit(i) - Vector3::Unit(j)));
     }
     return hessian;
 }
 
-ImplicitValue ImplicitFunctionSurface::calcImplicit(const Vec3& p) const {
+ImplicitValue ImplicitFunctionSurface::calcImplicit(const Vector3& p) const {
     if (m_full) return m_full(p);
     const double f = m_value(p);
     return {f, calcGradient(p), calcHessian(p, f)};
 }
 
-double ImplicitFunctionSurface::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
+double ImplicitFunctionSurface::calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const {
     if (m_full) return ImplicitShape::calcHeightAndNormal(p_S, N_S);
-    const Vec3 gradient = calcGradient(p_S);
+    const Vector3 gradient = calcGradient(p_S);
     const double slope = gradient.norm();
-    N_S = slope > 0 ? Vec3(gradient / slope) : Vec3(Vec3::UnitX());
+    N_S = slope > 0 ? Vector3(gradient / slope) : Vector3(Vector3::UnitX());
     return slope > 0 ? m_value(p_S) / slope : -m_size;
 }
 
@@ -106,26 +106,26 @@ ParametricFunctionSurface::ParametricFunctionSurface(std::string description, do
     require(m_full != nullptr, "parametric function surface: needs a function");
     requireNormalSign(normalSign, "parametric function surface");
     requireDomain(domain, "parametric function surface");
-    m_grid.build(domain, [this](const Vec2& uv) { return m_full(uv).x; });
+    m_grid.build(domain, [this](const Vector2& uv) { return m_full(uv).x; });
 }
 
 ParametricFunctionSurface ParametricFunctionSurface::fromPosition(std::string description, double size,
                                                                   const ParameterDomain& domain,
                                                                   PositionFunction position, double normalSign) {
     require(position != nullptr, "parametric function surface: needs a function");
-    const Vec2 extent = domain.max - domain.min, first = 0.5 * kFirstStep * extent, second = kFirstStep * extent;
-    const auto full = [position, first, second](const Vec2& uv) {
-        const auto line = [&](const Vec2& step) {
+    const Vector2 extent = domain.max - domain.min, first = 0.5 * kFirstStep * extent, second = kFirstStep * extent;
+    const auto full = [position, first, second](const Vector2& uv) {
+        const auto line = [&](const Vector2& step) {
             return [&position, uv, step](double s) { return position(uv + s * step); };
         };
-        const Vec2 u(1, 0), v(0, 1);
+        const Vector2 u(1, 0), v(0, 1);
         ParametricValue value;
         value.x = position(uv);
         value.xu = differentiate(line(u), first[0]);
         value.xv = differentiate(line(v), first[1]);
         value.xuu = differentiateTwice(line(u), value.x, second[0]);
         value.xvv = differentiateTwice(line(v), value.x, second[1]);
-        const Vec2 plus(second[0], second[1]), minus(second[0], -second[1]);
+        const Vector2 plus(second[0], second[1]), minus(second[0], -second[1]);
         value.xuv = (differentiateTwice(line(plus), value.x, 1) - differentiateTwice(line(minus), value.x, 1)) /
                     (4 * second[0] * second[1]);
         return value;

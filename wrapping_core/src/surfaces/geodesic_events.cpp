@@ -22,10 +22,10 @@ struct Station {
 template <class Function>
 class ArcWalk {
 public:
-    ArcWalk(const Surface& surface, const GeodesicStart& start, const GeodesicOptions& options,
+    ArcWalk(const Surface& surface, const GeodesicStart& start, const ShootingOptions& options,
             const Function& function)
         : m_surface(surface), m_options(options), m_function(function), m_length(start.length) {
-        Geodesic none;
+        ShotGeodesic none;
         surface.shootGeodesic({start.point, start.tangent, 0}, options, none);
         m_now.point = none.endPoint, m_now.frame = none.Q;
         m_now.value = function(m_now);
@@ -66,7 +66,7 @@ private:
     }
 
     Station calcStation(const Station& from, double distance) const {
-        Geodesic piece;
+        ShotGeodesic piece;
         m_surface.shootGeodesic({from.point, from.frame.t, distance}, m_options, piece);
         Station to;
         to.s = from.s + distance, to.point = piece.endPoint, to.frame = piece.Q;
@@ -133,7 +133,7 @@ private:
     }
 
     const Surface& m_surface;
-    const GeodesicOptions& m_options;
+    const ShootingOptions& m_options;
     const Function& m_function;
     double m_length;
     Station m_now;
@@ -159,8 +159,8 @@ Peak findVertex(double before, double here, double after) {
 double refinePeak(const Surface& surface, const GeodesicStart& start, double spacing, double s) {
     constexpr int kRefinements = 12;
     constexpr double kNarrower = 0.2, kNarrowest = 1e-3;  // of the first spacing
-    constexpr GeodesicOptions kFine{1e-10, 1000};         // what is next to zero is judged by its sign
-    Geodesic arc;
+    constexpr ShootingOptions kFine{1e-10, 1000};         // what is next to zero is judged by its sign
+    ShotGeodesic arc;
     const auto calc = [&](double at) {
         const double inside = std::clamp(at, std::min(0.0, start.length), std::max(0.0, start.length));
         surface.shootGeodesic({start.point, start.tangent, inside}, kFine, arc);
@@ -185,7 +185,7 @@ double refinePeak(const Surface& surface, const GeodesicStart& start, double spa
 }  // namespace
 
 std::optional<GeodesicPlace> findConjugatePoint(const Surface& surface, const GeodesicStart& start,
-                                                const GeodesicOptions& options) {
+                                                const ShootingOptions& options) {
     // r is zero at the start, where r/s is one.
     const auto field = [](const Station& at) { return at.s == 0 ? 1.0 : at.r / at.s; };
     std::optional<GeodesicPlace> place;
@@ -197,7 +197,7 @@ std::optional<GeodesicPlace> findConjugatePoint(const Surface& surface, const Ge
 }
 
 std::vector<GeodesicPlace> findPressureChanges(const Surface& surface, const GeodesicStart& start,
-                                               const GeodesicOptions& options) {
+                                               const ShootingOptions& options) {
     std::vector<GeodesicPlace> places;
     if (surface.isConvex()) return places;
     const auto pressure = [](const Station& at) { return at.frame.kappaN; };
@@ -209,7 +209,7 @@ std::vector<GeodesicPlace> findPressureChanges(const Surface& surface, const Geo
 }
 
 std::optional<GeodesicPlace> findDomainExit(const Surface& surface, const GeodesicStart& start,
-                                            const GeodesicOptions& options) {
+                                            const ShootingOptions& options) {
     const auto margin = [&surface](const Station& at) { return surface.calcDomainMargin(at.point); };
     ArcWalk walk(surface, start, options, margin);
     const double first = walk.getStart().value;
@@ -223,7 +223,7 @@ std::optional<GeodesicPlace> findDomainExit(const Surface& surface, const Geodes
     return place;
 }
 
-double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const Geodesic& geodesic) {
+double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& start, const ShotGeodesic& geodesic) {
     constexpr double kMatters = -0.05;  // curvature in sizes below which an estimate between samples is enough
     const double largest = std::max({geodesic.P.kappaN, geodesic.Q.kappaN, geodesic.maxKappaN});
     const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * std::abs(start.length) / surface.getSize()));

@@ -17,19 +17,19 @@ const Eigen::IOFormat kInOneLine(Eigen::StreamPrecision, Eigen::DontAlignCols, "
 
 }  // namespace
 
-void LinearMap::setFactors(const Vec3& factors) {
+void LinearMap::setFactors(const Vector3& factors) {
     for (int i = 0; i < 3; ++i)
         require(std::isfinite(factors[i]) && factors[i] > 0, "scaled surface: factor ", "xyz"[i],
                 " must be positive and finite, but is ", factors[i]);
     setMatrix(factors.asDiagonal());
 }
 
-void LinearMap::setMatrix(const Mat3& M) {
+void LinearMap::setMatrix(const Matrix3& M) {
     m_matrix = M;
     require(m_matrix.allFinite(), "scaled surface: matrix must be finite, but is ", m_matrix.format(kInOneLine));
     const double determinant = m_matrix.determinant();
     require(determinant > 0, "scaled surface: determinant of the matrix must be positive, but is ", determinant);
-    const Vec3 factors = Eigen::JacobiSVD<Mat3>(m_matrix).singularValues();
+    const Vector3 factors = Eigen::JacobiSVD<Matrix3>(m_matrix).singularValues();
     require(factors[2] >= kLeastRatio * factors[0],
             "scaled surface: least singular value of the matrix must be at least ", kLeastRatio, " of the largest, ",
             factors[0], ", but is ", factors[2]);

@@ -13,16 +13,16 @@ namespace {
 struct Foot {
     SurfacePoint C;
     DarbouxFrame frame;
-    Vec3 r;     ///< to D
-    Vec2 r_tB;  ///< in components along t and B
+    Vector3 r;     ///< to D
+    Vector2 r_tB;  ///< in components along t and B
 
-    Foot(const Surface& surface, const Vec3& D, const SurfacePoint& at)
+    Foot(const Surface& surface, const Vector3& D, const SurfacePoint& at)
         : C(at), frame(surface.calcFrame(at, D - at.p)), r(D - at.p), r_tB(r.dot(frame.t), r.dot(frame.B)) {}
 };
 
 }  // namespace
 
-SurfacePoint findNearestPoint(const Surface& surface, const Vec3& D, const SurfacePoint& near) {
+SurfacePoint findNearestPoint(const Surface& surface, const Vector3& D, const SurfacePoint& near) {
     constexpr int kMaxSteps = 20;
     constexpr double kRounding = 1e-15;
     Foot foot(surface, D, near);
@@ -33,7 +33,7 @@ SurfacePoint findNearestPoint(const Surface& surface, const Vec3& D, const Surfa
         Eigen::Matrix2d M;
         M << 1 - h * frame.kappaN, h * frame.tauG, h * frame.tauG, 1 - h * frame.kappaB;
         if (!(M(0, 0) > 0 && M.determinant() > 0)) break;
-        const Vec2 step = M.inverse() * foot.r_tB;
+        const Vector2 step = M.inverse() * foot.r_tB;
         const Foot next(surface, D, surface.calcDisplacedPoint(foot.C, step[0] * frame.t + step[1] * frame.B));
         // Near the end the distance hardly falls, what is left in the tangent plane does.
         if (!(next.r.norm() < foot.r.norm()) && !(next.r_tB.norm() < 0.5 * foot.r_tB.norm())) break;
@@ -42,10 +42,10 @@ SurfacePoint findNearestPoint(const Surface& surface, const Vec3& D, const Surfa
     return foot.C;
 }
 
-ImplicitValue calcSignedDistance(const Surface& surface, const Vec3& p) {
+ImplicitValue calcSignedDistance(const Surface& surface, const Vector3& p) {
     constexpr double kDeepest = 0.9;  // of the way to the nearer center of curvature
     const SurfacePoint C = findNearestPoint(surface, p, surface.findSurfacePoint(p));
-    const DarbouxFrame frame = surface.calcFrame(C, Vec3(1, 2, 3));
+    const DarbouxFrame frame = surface.calcFrame(C, Vector3(1, 2, 3));
     const double d = frame.N.dot(p - C.p);
     Eigen::Matrix2d W;
     W << -frame.kappaN, frame.tauG, frame.tauG, -frame.kappaB;

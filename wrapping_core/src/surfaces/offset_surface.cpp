@@ -32,14 +32,14 @@ DarbouxFrame raiseFrame(const DarbouxFrame& base, double h) {
 }
 
 /** What the foot moves by when the point above it moves by `d`: (1 + h W)^-1 d. */
-Vec3 calcFootDisplacement(const DarbouxFrame& base, double h, const Vec3& d) {
+Vector3 calcFootDisplacement(const DarbouxFrame& base, double h, const Vector3& d) {
     const double dt = d.dot(base.t), dB = d.dot(base.B);
     const double M11 = 1 - h * base.kappaN, M12 = h * base.tauG, M22 = 1 - h * base.kappaB;
     const double determinant = M11 * M22 - M12 * M12;
     return ((M22 * dt - M12 * dB) * base.t + (M11 * dB - M12 * dt) * base.B) / determinant;
 }
 
-/** Geodesic and Jacobi equations of the offset surface in terms of the foot on the base, t' = kappa_n N and
+/** ShotGeodesic and Jacobi equations of the offset surface in terms of the foot on the base, t' = kappa_n N and
 C' = (1 + h W)^-1 t. State: C (3), u, v, t (3), a, a', r, r'; of C and (u, v) only the one that the base goes by moves.
 */
 struct OffsetGeodesicEquations {
@@ -49,21 +49,21 @@ struct OffsetGeodesicEquations {
     const Surface& base;
     double h, size;
     bool hasCoordinates;
-    SurfacePoint foot;   ///< at the last projected state
-    DarbouxFrame frame;  ///< of the offset surface there
-    Vec2 lengths{1, 1};  ///< |xu|, |xv| there: make errors of u, v lengths
+    SurfacePoint foot;      ///< at the last projected state
+    DarbouxFrame frame;     ///< of the offset surface there
+    Vector2 lengths{1, 1};  ///< |xu|, |xv| there: make errors of u, v lengths
     double maxKappaN = kNaN;
 
     SurfacePoint calcFoot(const State& y) const {
-        return hasCoordinates ? SurfacePoint{Vec3::Constant(kNaN), y.segment<2>(3), foot.chart}
+        return hasCoordinates ? SurfacePoint{Vector3::Constant(kNaN), y.segment<2>(3), foot.chart}
                               : SurfacePoint{y.head<3>()};
     }
     void calcDerivative(const State& y, State& slope) const {
         const SurfacePoint C = calcFoot(y);
         const DarbouxFrame below = base.calcFrame(C, y.segment<3>(5));
         const RaisedShape shape(below, h);
-        const Vec3 velocity = calcFootDisplacement(below, h, below.t);
-        Vec2 rates = Vec2::Zero();
+        const Vector3 velocity = calcFootDisplacement(below, h, below.t);
+        Vector2 rates = Vector2::Zero();
         if (hasCoordinates) base.calcCoordinateRates(C, velocity, rates);
         const double K = below.calcGaussianCurvature() / shape.determinant;
         if (hasCoordinates)
@@ -76,12 +76,12 @@ struct OffsetGeodesicEquations {
     }
     void calcProjectedDerivative(const State& y, State& slope) const { calcDerivative(y, slope); }
     void calcErrorWeights(const State& /*y*/, State& weights) const {
-        weights.head<8>() << Vec3::Constant(1 / size), lengths / size, Vec3::Ones();
+        weights.head<8>() << Vector3::Constant(1 / size), lengths / size, Vector3::Ones();
     }
     /** Back to the base, in the chart that suits, and to unit speed. */
     void project(State& y) {
         const SurfacePoint C = calcFoot(y);
-        foot = hasCoordinates ? base.calcDisplacedPoint(C, Vec3::Zero()) : base.findSurfacePoint(C.p);
+        foot = hasCoordinates ? base.calcDisplacedPoint(C, Vector3::Zero()) : base.findSurfacePoint(C.p);
         place(base.calcFrame(foot, y.segment<3>(5)), y);
         maxKappaN = std::max(maxKappaN, frame.kappaN);
     }
@@ -93,34 +93,34 @@ struct OffsetGeodesicEquations {
             y.head<5>() << foot.p, 0, 0;
             return;
         }
-        y.head<5>() << Vec3::Zero(), foot.uv;
+        y.head<5>() << Vector3::Zero(), foot.uv;
         Eigen::Matrix2d rates;  // columns: (u', v') along t and B; the inverse has |xu|, |xv| in its columns
         for (int i = 0; i < 2; ++i) {
-            Vec2 rate = Vec2::Zero();
+            Vector2 rate = Vector2::Zero();
             base.calcCoordinateRates(foot, i == 0 ? below.t : below.B, rate);
             rates.col(i) = rate;
         }
         const double determinant = std::abs(rates(0, 0) * rates(1, 1) - rates(0, 1) * rates(1, 0));
-        lengths = Vec2(rates.row(1).norm(), rates.row(0).norm()) / determinant;
+        lengths = Vector2(rates.row(1).norm(), rates.row(0).norm()) / determinant;
     }
 };
 
 /** Foot of p on the base: Newton's method for (p - C) normal to the base, from a point C of the base.
 @return false if none was found: p lies beyond the centers of curvature */
-bool refineFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFrame& frame) {
+bool refineFoot(const Surface& base, const Vector3& p, SurfacePoint& C, DarbouxFrame& frame) {
     constexpr int kMaxIterations = 30;
     const double size = base.getSize(), enough = 1e-8 * size;  // after such a step its square is left
-    Vec3 direction = Vec3::UnitX();                            // any will do
+    Vector3 direction = Vector3::UnitX();                      // any will do
     for (int i = 0; i < kMaxIterations; ++i) {
         frame = base.calcFrame(C, direction);
         direction = frame.t;
-        const Vec3 w = p - C.p;
+        const Vector3 w = p - C.p;
         const double d = w.dot(frame.N), wt = w.dot(frame.t), wB = w.dot(frame.B);
         // (1 + d W) step = tangential part of w, W in {t, B}
         double H11 = 1 - d * frame.kappaN, H12 = d * frame.tauG, H22 = 1 - d * frame.kappaB;
         if (!(H11 > 0 && H11 * H22 - H12 * H12 > 0)) H11 = H22 = 1, H12 = 0;  // not the nearest point yet
         const double determinant = H11 * H22 - H12 * H12;
-        Vec2 step((H22 * wt - H12 * wB) / determinant, (H11 * wB - H12 * wt) / determinant);
+        Vector2 step((H22 * wt - H12 * wB) / determinant, (H11 * wB - H12 * wt) / determinant);
         const double length = step.norm();
         if (!std::isfinite(length)) return false;
         if (length <= 1e-15 * size) return true;
@@ -134,7 +134,7 @@ bool refineFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFram
 }
 
 /** From the base's own guess. */
-bool findFoot(const Surface& base, const Vec3& p, SurfacePoint& C, DarbouxFrame& frame) {
+bool findFoot(const Surface& base, const Vector3& p, SurfacePoint& C, DarbouxFrame& frame) {
     C = base.findSurfacePoint(p);
     return refineFoot(base, p, C, frame);
 }
@@ -150,22 +150,22 @@ OffsetSurface::OffsetSurface(std::shared_ptr<const Surface> base, double thickne
     : SurfaceDecorator(requireBase(std::move(base))), m_thickness(thickness) {
     require(std::isfinite(thickness) && thickness >= 0,
             "offset surface: thickness must be finite and not negative, but is ", thickness);
-    Vec2 rates;
-    m_hasCoordinates = getBase().calcCoordinateRates(getBase().findSurfacePoint(Vec3::Constant(getBase().getSize())),
-                                                     Vec3::Zero(), rates);
+    Vector2 rates;
+    m_hasCoordinates = getBase().calcCoordinateRates(getBase().findSurfacePoint(Vector3::Constant(getBase().getSize())),
+                                                     Vector3::Zero(), rates);
 }
 
 std::string OffsetSurface::getDescription() const {
     return describeShape(getBase().getDescription(), " under a layer of ", m_thickness);
 }
 
-ImplicitValue OffsetSurface::calcImplicit(const Vec3& p) const {
+ImplicitValue OffsetSurface::calcImplicit(const Vector3& p) const {
     SurfacePoint C;
     DarbouxFrame frame;
     findFoot(getBase(), p, C, frame);
     const double d = (p - C.p).dot(frame.N);
     const RaisedShape shape(frame, d);  // of the parallel surface through p: the Hessian of the distance
-    const Mat3 mixed = frame.t * frame.B.transpose();
+    const Matrix3 mixed = frame.t * frame.B.transpose();
     return {d - m_thickness, frame.N,
             shape.tauG * (mixed + mixed.transpose()) - shape.kappaN * frame.t * frame.t.transpose() -
                 shape.kappaB * frame.B * frame.B.transpose()};
@@ -173,7 +173,7 @@ ImplicitValue OffsetSurface::calcImplicit(const Vec3& p) const {
 
 /** The distance itself where p has a foot, else the base's estimate. Beside the domain of the base there is no layer.
  */
-double OffsetSurface::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
+double OffsetSurface::calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const {
     const double height = getBase().calcHeightAndNormal(p_S, N_S);
     SurfacePoint C;
     DarbouxFrame frame;
@@ -183,35 +183,35 @@ double OffsetSurface::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
     return (p_S - C.p).dot(frame.N) - m_thickness;
 }
 
-SurfacePoint OffsetSurface::findSurfacePoint(const Vec3& p_S) const {
+SurfacePoint OffsetSurface::findSurfacePoint(const Vector3& p_S) const {
     SurfacePoint C;
     DarbouxFrame frame;
     findFoot(getBase(), p_S, C, frame);
     return {C.p + m_thickness * frame.N, C.uv, C.chart};
 }
 
-bool OffsetSurface::findFootOfPoint(const SurfacePoint& point, const Vec3& direction, SurfacePoint& C,
+bool OffsetSurface::findFootOfPoint(const SurfacePoint& point, const Vector3& direction, SurfacePoint& C,
                                     DarbouxFrame& frame) const {
     if (m_hasCoordinates) {  // are they those of the foot?
-        C = {Vec3::Constant(kNaN), point.uv, point.chart};
+        C = {Vector3::Constant(kNaN), point.uv, point.chart};
         frame = getBase().calcFrame(C, direction);
         C.p = frame.x;
-        const Vec3 raised = frame.x + m_thickness * frame.N;
+        const Vector3 raised = frame.x + m_thickness * frame.N;
         if (!point.p.allFinite() || (raised - point.p).norm() <= 1e-12 * (getSize() + raised.norm())) return true;
         C = getBase().findSurfacePoint(point.p);
     } else {
-        Vec3 N;
+        Vector3 N;
         const double height = getBase().calcHeightAndNormal(point.p, N);
         // Near this surface the foot is about h below; elsewhere the base knows better.
         C = getBase().findSurfacePoint(
-            std::abs(height - m_thickness) < 0.5 * m_thickness ? Vec3(point.p - m_thickness * N) : point.p);
+            std::abs(height - m_thickness) < 0.5 * m_thickness ? Vector3(point.p - m_thickness * N) : point.p);
     }
     if (!refineFoot(getBase(), point.p, C, frame)) return false;
     frame = getBase().calcFrame(C, direction);
     return true;
 }
 
-SurfacePoint OffsetSurface::calcDisplacedPoint(const SurfacePoint& start, const Vec3& displacement_S) const {
+SurfacePoint OffsetSurface::calcDisplacedPoint(const SurfacePoint& start, const Vector3& displacement_S) const {
     SurfacePoint C;
     DarbouxFrame frame;
     findFootOfPoint(start, displacement_S, C, frame);
@@ -219,15 +219,15 @@ SurfacePoint OffsetSurface::calcDisplacedPoint(const SurfacePoint& start, const 
     return {C.p + m_thickness * getBase().calcFrame(C, frame.t).N, C.uv, C.chart};
 }
 
-DarbouxFrame OffsetSurface::calcFrame(const SurfacePoint& point, const Vec3& direction_S) const {
+DarbouxFrame OffsetSurface::calcFrame(const SurfacePoint& point, const Vector3& direction_S) const {
     SurfacePoint C;
     DarbouxFrame frame;
     findFootOfPoint(point, direction_S, C, frame);
     return raiseFrame(frame, m_thickness);
 }
 
-void OffsetSurface::shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options,
-                                  Geodesic& geodesic) const {
+void OffsetSurface::shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                                  ShotGeodesic& geodesic) const {
     SurfacePoint C;
     DarbouxFrame below;
     findFootOfPoint(start.point, start.tangent, C, below);
@@ -244,7 +244,7 @@ void OffsetSurface::shootGeodesic(const GeodesicStart& start, const GeodesicOpti
 double OffsetSurface::calcDomainMargin(const SurfacePoint& point) const {
     SurfacePoint C;
     DarbouxFrame frame;
-    return findFootOfPoint(point, Vec3::UnitX(), C, frame) ? getBase().calcDomainMargin(C) : -kInfinity;
+    return findFootOfPoint(point, Vector3::UnitX(), C, frame) ? getBase().calcDomainMargin(C) : -kInfinity;
 }
 
 }  // namespace tautline

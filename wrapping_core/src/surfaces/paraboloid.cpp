@@ -23,7 +23,7 @@ std::string Paraboloid::getDescription() const {
 }
 
 /** The minimum of the quadratic f along the line, or the lower end of a line along the axis. */
-double Paraboloid::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
+double Paraboloid::findLowestPoint(const Vector3& A_S, const Vector3& e_S, double length) const {
     const double quadratic = e_S.x() * e_S.x() / m_A + e_S.y() * e_S.y() / m_B;
     const double linear = 2 * (A_S.x() * e_S.x() / m_A + A_S.y() * e_S.y() / m_B) - e_S.z();
     const double lowest = -linear / (2 * quadratic);

@@ -10,27 +10,27 @@
 namespace tautline {
 namespace {
 
-void checkCloud(const std::vector<Vec2>& uv, const std::vector<Vec3>& points) {
+void checkCloud(const std::vector<Vector2>& uv, const std::vector<Vector3>& points) {
     require(uv.size() == points.size(), "patch fit: ", uv.size(), " coordinates for ", points.size(), " points");
     require(!points.empty(), "patch fit: needs points");
     for (std::size_t k = 0; k < points.size(); ++k)
         require(uv[k].allFinite() && points[k].allFinite(), "patch fit: point ", k, " is not finite");
 }
 
-std::vector<Vec2> takeHeads(const std::vector<Vec3>& points) {
-    std::vector<Vec2> uv;
-    for (const Vec3& p : points) uv.push_back(p.head<2>());
+std::vector<Vector2> takeHeads(const std::vector<Vector3>& points) {
+    std::vector<Vector2> uv;
+    for (const Vector3& p : points) uv.push_back(p.head<2>());
     return uv;
 }
 
-Eigen::MatrixX3d stack(const std::vector<Vec3>& points) {
+Eigen::MatrixX3d stack(const std::vector<Vector3>& points) {
     Eigen::MatrixX3d rows(points.size(), 3);
     for (std::size_t k = 0; k < points.size(); ++k) rows.row(k) = points[k].transpose();
     return rows;
 }
 
 template <class Patch>
-FitReport calcReport(const Patch& patch, const std::vector<Vec2>& uv, const std::vector<Vec3>& points,
+FitReport calcReport(const Patch& patch, const std::vector<Vector2>& uv, const std::vector<Vector3>& points,
                      int numUnknowns) {
     FitReport report;
     report.numUnknowns = numUnknowns;
@@ -40,7 +40,7 @@ FitReport calcReport(const Patch& patch, const std::vector<Vec2>& uv, const std:
     return report;
 }
 
-PolynomialFit fitPolynomial(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int orderU, int orderV,
+PolynomialFit fitPolynomial(const std::vector<Vector2>& uv, const std::vector<Vector3>& points, int orderU, int orderV,
                             PolynomialTerms terms, const ParameterDomain& domain, bool isHeightPatch,
                             double normalSign) {
     checkCloud(uv, points);
@@ -55,10 +55,10 @@ PolynomialFit fitPolynomial(const std::vector<Vec2>& uv, const std::vector<Vec3>
     const Eigen::Index count = static_cast<Eigen::Index>(columns.size()),
                        numPoints = static_cast<Eigen::Index>(uv.size());
     require(numPoints >= count, "patch fit: ", numPoints, " points for ", count, " polynomial terms");
-    const Vec2 middle = 0.5 * (domain.min + domain.max), half = 0.5 * (domain.max - domain.min);
+    const Vector2 middle = 0.5 * (domain.min + domain.max), half = 0.5 * (domain.max - domain.min);
     Eigen::MatrixXd design(numPoints, count);
     for (Eigen::Index k = 0; k < numPoints; ++k) {
-        const Vec2 s = (uv[k] - middle).cwiseQuotient(half);
+        const Vector2 s = (uv[k] - middle).cwiseQuotient(half);
         for (Eigen::Index c = 0; c < count; ++c)
             design(k, c) = std::pow(s[0], columns[c] / (orderV + 1)) * std::pow(s[1], columns[c] % (orderV + 1));
     }
@@ -72,7 +72,7 @@ PolynomialFit fitPolynomial(const std::vector<Vec2>& uv, const std::vector<Vec3>
     return {std::move(patch), std::move(report)};
 }
 
-BSplineFit fitBSpline(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int numU, int numV,
+BSplineFit fitBSpline(const std::vector<Vector2>& uv, const std::vector<Vector3>& points, int numU, int numV,
                       const ParameterDomain& domain, bool isHeightPatch, double normalSign) {
     checkCloud(uv, points);
     require(numU >= 4 && numV >= 4, "patch fit: needs at least 4 control points in each direction, got ", numU, " by ",
@@ -103,7 +103,7 @@ double findMedian(std::vector<double> numbers) {
 
 /** @param fit   of points, to a patch of heights */
 template <class Fit>
-auto fitRobustly(const std::vector<Vec3>& points, std::vector<int>* keptNumbers, Fit&& fit) {
+auto fitRobustly(const std::vector<Vector3>& points, std::vector<int>* keptNumbers, Fit&& fit) {
     constexpr int kMostRounds = 50;       // the points that are left mostly stay the same after five
     constexpr double kDeviations = 3.5;   // of a normal distribution one point in 2000 is farther out
     constexpr double kOfMedian = 1.4826;  // standard deviation of a normal distribution over its median residual
@@ -111,7 +111,7 @@ auto fitRobustly(const std::vector<Vec3>& points, std::vector<int>* keptNumbers,
     std::vector<int> kept(points.size()), next;
     std::iota(kept.begin(), kept.end(), 0);
     for (int round = 0;; ++round) {
-        std::vector<Vec3> used;
+        std::vector<Vector3> used;
         for (const int i : kept) used.push_back(points[static_cast<std::size_t>(i)]);
         auto result = fit(used);
         const FitReport all = calcReport(result.patch, takeHeads(points), points, 0);
@@ -132,43 +132,44 @@ auto fitRobustly(const std::vector<Vec3>& points, std::vector<int>* keptNumbers,
 
 }  // namespace
 
-ParameterDomain findDomain(const std::vector<Vec2>& uv) {
+ParameterDomain findDomain(const std::vector<Vector2>& uv) {
     require(!uv.empty(), "patch fit: needs points");
     ParameterDomain domain{uv.front(), uv.front()};
-    for (const Vec2& at : uv) domain.min = domain.min.cwiseMin(at), domain.max = domain.max.cwiseMax(at);
+    for (const Vector2& at : uv) domain.min = domain.min.cwiseMin(at), domain.max = domain.max.cwiseMax(at);
     return domain;
 }
 
-PolynomialFit fitPolynomialPatch(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int orderU, int orderV,
-                                 PolynomialTerms terms, const ParameterDomain& domain, double normalSign) {
+PolynomialFit fitPolynomialPatch(const std::vector<Vector2>& uv, const std::vector<Vector3>& points, int orderU,
+                                 int orderV, PolynomialTerms terms, const ParameterDomain& domain, double normalSign) {
     return fitPolynomial(uv, points, orderU, orderV, terms, domain, false, normalSign);
 }
 
 /** x and y are polynomials of order 1 in u = x, v = y, so the fit of all three components is that of z. */
-PolynomialFit fitPolynomialHeights(const std::vector<Vec3>& points, int orderU, int orderV, PolynomialTerms terms,
+PolynomialFit fitPolynomialHeights(const std::vector<Vector3>& points, int orderU, int orderV, PolynomialTerms terms,
                                    double normalSign) {
-    const std::vector<Vec2> uv = takeHeads(points);
+    const std::vector<Vector2> uv = takeHeads(points);
     return fitPolynomial(uv, points, orderU, orderV, terms, findDomain(uv), true, normalSign);
 }
 
-PolynomialFit fitPolynomialHeightsRobustly(const std::vector<Vec3>& points, int orderU, int orderV,
+PolynomialFit fitPolynomialHeightsRobustly(const std::vector<Vector3>& points, int orderU, int orderV,
                                            PolynomialTerms terms, std::vector<int>* kept) {
-    return fitRobustly(
-        points, kept, [&](const std::vector<Vec3>& used) { return fitPolynomialHeights(used, orderU, orderV, terms); });
+    return fitRobustly(points, kept, [&](const std::vector<Vector3>& used) {
+        return fitPolynomialHeights(used, orderU, orderV, terms);
+    });
 }
 
-BSplineFit fitBSplineHeightsRobustly(const std::vector<Vec3>& points, int numU, int numV, std::vector<int>* kept) {
+BSplineFit fitBSplineHeightsRobustly(const std::vector<Vector3>& points, int numU, int numV, std::vector<int>* kept) {
     return fitRobustly(points, kept,
-                       [&](const std::vector<Vec3>& used) { return fitBSplineHeights(used, numU, numV); });
+                       [&](const std::vector<Vector3>& used) { return fitBSplineHeights(used, numU, numV); });
 }
 
-BSplineFit fitBSplinePatch(const std::vector<Vec2>& uv, const std::vector<Vec3>& points, int numU, int numV,
+BSplineFit fitBSplinePatch(const std::vector<Vector2>& uv, const std::vector<Vector3>& points, int numU, int numV,
                            const ParameterDomain& domain, double normalSign) {
     return fitBSpline(uv, points, numU, numV, domain, false, normalSign);
 }
 
-BSplineFit fitBSplineHeights(const std::vector<Vec3>& points, int numU, int numV, double normalSign) {
-    const std::vector<Vec2> uv = takeHeads(points);
+BSplineFit fitBSplineHeights(const std::vector<Vector3>& points, int numU, int numV, double normalSign) {
+    const std::vector<Vector2> uv = takeHeads(points);
     return fitBSpline(uv, points, numU, numV, findDomain(uv), true, normalSign);
 }
 

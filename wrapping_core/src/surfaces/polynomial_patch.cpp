@@ -12,7 +12,7 @@ namespace {
 
 /** Row k: k-th derivatives of 1, s, s^2, ... by the plain coordinate, ds/du = slope. */
 void calcPowers(double s, double slope, int order, Eigen::Matrix<double, 3, PolynomialPatch::kMaxOrder + 1>& powers) {
-    powers.col(0) = Vec3(1, 0, 0);
+    powers.col(0) = Vector3(1, 0, 0);
     for (int i = 1; i <= order; ++i) {
         powers(0, i) = s * powers(0, i - 1);
         powers(1, i) = i * slope * powers(0, i - 1);
@@ -42,7 +42,7 @@ PolynomialPatch PolynomialPatch::makeHeightPatch(const ParameterDomain& domain, 
                                                  double normalSign) {
     const int n = static_cast<int>(p.rows()) - 1, m = static_cast<int>(p.cols()) - 1;
     require(n >= 1 && m >= 1, "polynomial patch: needs orders of at least 1, got ", n, " and ", m);
-    const Vec2 middle = 0.5 * (domain.min + domain.max), half = 0.5 * (domain.max - domain.min);
+    const Vector2 middle = 0.5 * (domain.min + domain.max), half = 0.5 * (domain.max - domain.min);
     // Row i: u^i = (middle + half s)^i in powers of s.
     const auto calcExpansion = [](int order, double a, double b) {
         Eigen::MatrixXd expansion = Eigen::MatrixXd::Zero(order + 1, order + 1);
@@ -61,7 +61,7 @@ PolynomialPatch PolynomialPatch::makeScaledHeightPatch(const ParameterDomain& do
                                                        double normalSign) {
     const int n = static_cast<int>(p.rows()) - 1, m = static_cast<int>(p.cols()) - 1;
     require(n >= 1 && m >= 1, "polynomial patch: needs orders of at least 1, got ", n, " and ", m);
-    const Vec2 middle = 0.5 * (domain.min + domain.max), half = 0.5 * (domain.max - domain.min);
+    const Vector2 middle = 0.5 * (domain.min + domain.max), half = 0.5 * (domain.max - domain.min);
     Eigen::Matrix3Xd coefficients = Eigen::Matrix3Xd::Zero(3, (n + 1) * (m + 1));
     for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= m; ++j) coefficients(2, i * (m + 1) + j) = p(i, j);
@@ -74,14 +74,14 @@ std::string PolynomialPatch::getDescription() const {
     return describeShape("polynomial patch(orders=", m_orderU, ", ", m_orderV, ")");
 }
 
-void PolynomialPatch::calcPartials(const Vec2& uv, PatchPartials& partials) const {
+void PolynomialPatch::calcPartials(const Vector2& uv, PatchPartials& partials) const {
     Eigen::Matrix<double, 3, kMaxOrder + 1> powersU, powersV;
-    const Vec2 s = (uv - m_middle).cwiseProduct(m_inverseHalf);
+    const Vector2 s = (uv - m_middle).cwiseProduct(m_inverseHalf);
     calcPowers(s[0], m_inverseHalf[0], m_orderU, powersU);
     calcPowers(s[1], m_inverseHalf[1], m_orderV, powersV);
     partials.setZero();
     for (int i = 0; i <= m_orderU; ++i) {
-        Mat3 inV = Mat3::Zero();  // column l: l-th derivative by v of the coefficient of u^i
+        Matrix3 inV = Matrix3::Zero();  // column l: l-th derivative by v of the coefficient of u^i
         for (int j = 0; j <= m_orderV; ++j)
             inV += m_coefficients.col(i * (m_orderV + 1) + j) * powersV.col(j).transpose();
         for (int k = 0; k < 3; ++k) partials.middleCols<3>(3 * k) += powersU(k, i) * inV;

@@ -12,7 +12,7 @@ class SharedForm : public SurfaceDecorator<Form, std::shared_ptr<const Surface>>
 public:
     using SurfaceDecorator<Form, std::shared_ptr<const Surface>>::SurfaceDecorator;
 
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override {
         return this->getBase().calcHeightAndNormal(p_S, N_S);
     }
 };
@@ -21,7 +21,7 @@ class SharedImplicitSurface final : public SharedForm<ImplicitShape<SharedImplic
 public:
     explicit SharedImplicitSurface(std::shared_ptr<const Surface> surface) : SharedForm(std::move(surface)) {}
 
-    ImplicitValue calcImplicit(const Vec3& p_S) const {
+    ImplicitValue calcImplicit(const Vector3& p_S) const {
         ImplicitValue value;
         getBase().calcImplicitForm(p_S, value);
         return value;
@@ -32,18 +32,18 @@ public:
 class SharedParametricSurface final : public SharedForm<ParametricShape<SharedParametricSurface>> {
 public:
     explicit SharedParametricSurface(std::shared_ptr<const Surface> surface) : SharedForm(std::move(surface)) {
-        const SurfacePoint point = getBase().findSurfacePoint(Vec3::Constant(getSize()));
+        const SurfacePoint point = getBase().findSurfacePoint(Vector3::Constant(getSize()));
         const ParametricValue s = calcParametric(point.uv, point.chart);
         m_normalSign = s.xu.cross(s.xv).dot(getBase().calcFrame(point, s.xu).N) < 0 ? -1 : 1;
     }
-    ParametricValue calcParametric(const Vec2& uv, int chart) const {
+    ParametricValue calcParametric(const Vector2& uv, int chart) const {
         ParametricValue value;
-        getBase().calcParametricForm({Vec3::Constant(kNaN), uv, chart}, value);
+        getBase().calcParametricForm({Vector3::Constant(kNaN), uv, chart}, value);
         return value;
     }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int /*chart*/) const { return getBase().findSurfacePoint(p_S).uv; }
+    Vector2 calcNearbyParameters(const Vector3& p_S, int /*chart*/) const { return getBase().findSurfacePoint(p_S).uv; }
     double getNormalSign() const { return m_normalSign; }
-    int chooseChart(const Vec3& p_S, const Vec3& /*t_S*/, int /*current*/) const {
+    int chooseChart(const Vector3& p_S, const Vector3& /*t_S*/, int /*current*/) const {
         return getBase().findSurfacePoint(p_S).chart;
     }
 
@@ -55,7 +55,7 @@ private:
 
 std::shared_ptr<const Surface> makeScaledSurface(const std::shared_ptr<const Surface>& base, const LinearMap& map) {
     require(base != nullptr, "scaled surface: needs a base surface");
-    const SurfacePoint point = base->findSurfacePoint(Vec3::Constant(base->getSize()));
+    const SurfacePoint point = base->findSurfacePoint(Vector3::Constant(base->getSize()));
     ImplicitValue implicitValue;
     if (base->calcImplicitForm(point.p, implicitValue))
         return std::make_shared<ScaledImplicitSurface<SharedImplicitSurface>>(SharedImplicitSurface(base), map);

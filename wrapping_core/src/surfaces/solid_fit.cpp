@@ -31,7 +31,7 @@ void forEachIndex(const Index& counts, Function&& act) {
             for (int k = 0; k < counts[2]; ++k) act(Index{i, j, k});
 }
 
-Vec3 toVector(const Index& index) {
+Vector3 toVector(const Index& index) {
     return {double(index[0]), double(index[1]), double(index[2])};
 }
 
@@ -52,7 +52,7 @@ struct Kernel {
 bricks: (i, j, k) of a brick is its lowest point and those up to 7 steps on. */
 class DistanceBricks {
 public:
-    DistanceBricks(const MeshDistance& distance, const Vec3& origin, double spacing)
+    DistanceBricks(const MeshDistance& distance, const Vector3& origin, double spacing)
         : m_distance(distance), m_origin(origin), m_spacing(spacing) {}
 
     /** Of a cube of lattice points. @param first   its lowest point, in steps from the origin @param side   in points
@@ -89,7 +89,7 @@ private:
 
     /** @param neighbor   that of a point one step away, so no farther than a step off in distance, and on the same side
     if the mesh is farther from it than this point is */
-    double calcDistance(const Vec3& p, double neighbor) const {
+    double calcDistance(const Vector3& p, double neighbor) const {
         constexpr double kRounding = 1 + 1e-9;
         const double within = kRounding * (std::abs(neighbor) + m_spacing);
         const double distance = m_distance.findNearest(p, within).distance;
@@ -99,7 +99,7 @@ private:
     }
 
     const MeshDistance& m_distance;
-    Vec3 m_origin;
+    Vector3 m_origin;
     double m_spacing;
     std::map<Index, std::vector<double>> m_bricks;
     Index m_last{};  ///< the brick that was asked last
@@ -159,7 +159,7 @@ void fillBricks(const MeshDistance& distance, const Eigen::AlignedBox3d& box, So
     const Kernel kernel(grid.width / grid.spacing);
     std::int32_t numFilled = 0;
     forEachIndex(grid.numBricks, [&](const Index& brick) {
-        const Vec3 center = grid.origin + brickSide * (toVector(brick) + Vec3::Constant(0.5));
+        const Vector3 center = grid.origin + brickSide * (toVector(brick) + Vector3::Constant(0.5));
         if (distance.findNearest(center, reach).triangle < 0) {
             grid.bricks.push_back(distance.isInside(center) ? SolidGrid::kInside : SolidGrid::kOutside);
             return;
@@ -182,7 +182,7 @@ void fillFar(const MeshDistance& distance, const Eigen::AlignedBox3d& box, Solid
     }
     grid.farOrigin = box.center() - 0.5 * grid.farSpacing * toVector(numCells);
     forEachIndex(grid.numFarControls, [&](const Index& at) {
-        const Vec3 point = grid.farOrigin + grid.farSpacing * (toVector(at) - Vec3::Ones());
+        const Vector3 point = grid.farOrigin + grid.farSpacing * (toVector(at) - Vector3::Ones());
         grid.farControls.push_back(static_cast<float>(distance.findNearest(point).distance));
     });
 }
@@ -224,10 +224,10 @@ void takeResiduals(const MeshDistance& distance, int numTriangles, SolidFit& fit
     constexpr double kAside = 1e-3;       // of the width
     const TriangleMesh& mesh = distance.getMesh();
     for (int i = 0; i < numTriangles; ++i) {
-        const Vec3 N = calcDoubleArea(mesh, i).normalized();
-        const Vec3 aside = kAside * fit.solid.getGrid().width * N;
-        const Vec3 middle = (mesh.getCorner(i, 0) + mesh.getCorner(i, 1) + mesh.getCorner(i, 2)) / 3;
-        const auto take = [&](const Vec3& point) {
+        const Vector3 N = calcDoubleArea(mesh, i).normalized();
+        const Vector3 aside = kAside * fit.solid.getGrid().width * N;
+        const Vector3 middle = (mesh.getCorner(i, 0) + mesh.getCorner(i, 1) + mesh.getCorner(i, 2)) / 3;
+        const auto take = [&](const Vector3& point) {
             if (distance.isInside(point + aside)) return;
             fit.points.push_back(point);
             fit.report.residuals.push_back((fit.solid.findSurfacePoint(point).p - point).norm());

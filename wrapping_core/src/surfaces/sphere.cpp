@@ -21,19 +21,19 @@ std::string Sphere::getDescription() const {
     return describeShape("sphere(radius=", m_radius, ")");
 }
 
-double Sphere::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
+double Sphere::calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const {
     const double distance = p_S.norm();
-    N_S = distance > 0 ? Vec3(p_S / distance) : Vec3(Vec3::UnitX());
+    N_S = distance > 0 ? Vector3(p_S / distance) : Vector3(Vector3::UnitX());
     return distance - m_radius;
 }
 
-SurfacePoint Sphere::findSurfacePoint(const Vec3& p_S) const {
-    Vec3 N;
+SurfacePoint Sphere::findSurfacePoint(const Vector3& p_S) const {
+    Vector3 N;
     calcHeightAndNormal(p_S, N);
     return {m_radius * N};
 }
 
-DarbouxFrame Sphere::calcFrame(const SurfacePoint& point, const Vec3& direction_S) const {
+DarbouxFrame Sphere::calcFrame(const SurfacePoint& point, const Vector3& direction_S) const {
     DarbouxFrame frame;
     const double distance = point.p.norm();
     frame.x = point.p, frame.N = point.p / distance;
@@ -42,7 +42,7 @@ DarbouxFrame Sphere::calcFrame(const SurfacePoint& point, const Vec3& direction_
     return frame;
 }
 
-void Sphere::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Geodesic& geodesic) const {
+void Sphere::shootGeodesic(const GeodesicStart& start, const ShootingOptions&, ShotGeodesic& geodesic) const {
     const double angle = start.length / m_radius, c = std::cos(angle), s = std::sin(angle);
     const DarbouxFrame P = Sphere::calcFrame(start.point, start.tangent);
     geodesic.P = geodesic.Q = P;
@@ -58,16 +58,16 @@ void Sphere::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, G
     geodesic.maxKappaN = P.kappaN;
 }
 
-void Sphere::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const {
+void Sphere::findLineClearance(const Vector3& A_S, const Vector3& e_S, LineClearance& clearance) const {
     const double s = -A_S.dot(e_S);
-    const Vec3 D = A_S + s * e_S;  // nearest the center
-    Vec3 N = makeTangent(D, e_S);
+    const Vector3 D = A_S + s * e_S;  // nearest the center
+    Vector3 N = makeTangent(D, e_S);
     if (N.dot(clearance.N) < 0) N = -N;  // of the two critical points, the one on the side that is kept
     clearance.C = {m_radius * N}, clearance.N = N, clearance.lineCoordinate = s;
     clearance.distance = D.dot(N) - m_radius, clearance.scale = 1 / m_radius, clearance.found = true;
 }
 
-double Sphere::findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const {
+double Sphere::findLowestPoint(const Vector3& A_S, const Vector3& e_S, double length) const {
     return std::clamp(-A_S.dot(e_S), 0.0, length);
 }
 

@@ -33,8 +33,8 @@ protected:
     bool isBroken() const { return m_isBroken; }
     double exact() const { return m_options.exactTolerance; }
 
-    Geodesic shoot(const Surface& surface, const SurfacePoint& point, const Vec3& tangent, double length) const {
-        Geodesic geodesic;
+    ShotGeodesic shoot(const Surface& surface, const SurfacePoint& point, const Vector3& tangent, double length) const {
+        ShotGeodesic geodesic;
         surface.shootGeodesic({point, tangent, length}, m_options.geodesics, geodesic);
         return geodesic;
     }
@@ -47,7 +47,7 @@ protected:
         return std::max({1 / m_size, std::abs(f.kappaN), std::abs(f.kappaB), std::abs(f.tauG)});
     }
     /** Products of Jacobi fields: how much an error at the start may have grown at the end. */
-    double calcGrowth(const Geodesic& g) const {
+    double calcGrowth(const ShotGeodesic& g) const {
         return std::max(
             {1.0, std::abs(g.a * g.rDot), std::abs(g.aDot * g.r), std::abs(g.r) / m_size, std::abs(g.aDot) * m_size});
     }
@@ -91,23 +91,23 @@ public:
     }
 
 private:
-    double calcHeight(const Vec3& p) const { return m_surface.calcHeight(p); }
+    double calcHeight(const Vector3& p) const { return m_surface.calcHeight(p); }
 
     /** What the height of a surface point is off: it is 0, and beside the domain not negative. */
     double calcHeightError(const SurfacePoint& point) const {
         const double height = calcHeight(point.p);
         return m_surface.isInDomain(point) ? std::abs(height) : std::max(0.0, -height);
     }
-    Geodesic shoot(const SurfacePoint& point, const Vec3& tangent, double length) const {
+    ShotGeodesic shoot(const SurfacePoint& point, const Vector3& tangent, double length) const {
         return SampleChecker::shoot(m_surface, point, tangent, length);
     }
     double calcGrowth() const { return SampleChecker::calcGrowth(m_arc); }
 
     void checkFrame() {
         const DarbouxFrame& f = m_frame;
-        Mat3 R;
+        Matrix3 R;
         R << f.t, f.N, f.B;
-        demand((R.transpose() * R - Mat3::Identity()).norm(), 1e-13, "1 (frame orthonormal)");
+        demand((R.transpose() * R - Matrix3::Identity()).norm(), 1e-13, "1 (frame orthonormal)");
         demand((f.B - f.t.cross(f.N)).norm(), 1e-13, "1 (frame right-handed, B = t x N)");
         demand((f.x - m_point.p).norm() / m_size, exact(), "1 (frame at its point)");
         demand(m_sample.direction_S.dot(f.B) / m_sample.direction_S.norm(), 1e-12, "1 (t along the direction)");
@@ -123,7 +123,7 @@ private:
 
     void checkHeight() {
         if (!m_surface.isInDomain(m_point)) return;
-        Vec3 N;
+        Vector3 N;
         m_surface.calcHeightAndNormal(m_point.p, N);
         demand((N - m_frame.N).norm(), 1e-8, "3 (ascent of the height on the surface is N)");
         const double step = 1e-4 * std::min(m_size, 1 / m_curvature);
@@ -137,9 +137,9 @@ private:
 
     void checkDisplacement() {
         const double step = 0.02 / m_curvature;
-        for (const Vec3& direction : {m_frame.t, m_frame.B}) {
+        for (const Vector3& direction : {m_frame.t, m_frame.B}) {
             for (const double distance : {step, -step}) {
-                const Vec3 target = m_point.p + distance * direction;
+                const Vector3 target = m_point.p + distance * direction;
                 const SurfacePoint there = m_surface.calcDisplacedPoint(m_point, distance * direction);
                 demand(calcHeightError(there) / m_size, 1e-10, "4 (displaced point on the surface)");
                 // In curvature^-1 the square of the step; a normal section alone misses half of it.
@@ -152,11 +152,11 @@ private:
     void checkCurvatures() {
         const DarbouxFrame& f = m_frame;
         const double step = m_options.differenceStep * std::min(m_size, 1 / m_curvature);
-        const auto calcSlope = [&](const Vec3& direction) {
-            return Vec3((shoot(m_point, direction, step).Q.N - shoot(m_point, direction, -step).Q.N) / (2 * step));
+        const auto calcSlope = [&](const Vector3& direction) {
+            return Vector3((shoot(m_point, direction, step).Q.N - shoot(m_point, direction, -step).Q.N) / (2 * step));
         };
         const double limit = m_options.differenceTolerance * m_curvature;
-        const Vec3 dN_t = calcSlope(f.t), dN_B = calcSlope(f.B);
+        const Vector3 dN_t = calcSlope(f.t), dN_B = calcSlope(f.B);
         demand(std::abs(f.kappaN + f.t.dot(dN_t)), limit, "5 (kappaN = -t . dN(t))");
         demand(std::abs(f.tauG - f.B.dot(dN_t)), limit, "5 (tauG = B . dN(t))");
         demand(std::abs(f.tauG - f.t.dot(dN_B)), limit, "5 (dN symmetric)");
@@ -184,20 +184,20 @@ private:
     }
 
     void checkReversal() {
-        const Geodesic back = shoot(m_arc.endPoint, -m_arc.Q.t, m_sample.length);
+        const ShotGeodesic back = shoot(m_arc.endPoint, -m_arc.Q.t, m_sample.length);
         DarbouxFrame reversed = back.Q;
         reversed.t = -reversed.t, reversed.B = -reversed.B;
         demand(calcDifference(reversed, m_frame), exact() * calcGrowth(), "7 (shot back from its end)");
         demand(std::max(
                    {std::abs(back.r - m_arc.r) / m_size, std::abs(back.a - m_arc.rDot), std::abs(back.rDot - m_arc.a)}),
                exact() * calcGrowth(), "7 (Jacobi fields of the reversed arc: r the same, a and r' exchanged)");
-        const Geodesic negative = shoot(m_arc.endPoint, m_arc.Q.t, -m_sample.length);
+        const ShotGeodesic negative = shoot(m_arc.endPoint, m_arc.Q.t, -m_sample.length);
         demand(calcDifference(negative.Q, m_frame), exact() * calcGrowth(), "7 (shot over the negative length)");
     }
 
     void checkAdditivity() {
-        const Geodesic first = shoot(m_point, m_frame.t, 0.4 * m_sample.length);
-        const Geodesic second = shoot(first.endPoint, first.Q.t, 0.6 * m_sample.length);
+        const ShotGeodesic first = shoot(m_point, m_frame.t, 0.4 * m_sample.length);
+        const ShotGeodesic second = shoot(first.endPoint, first.Q.t, 0.6 * m_sample.length);
         demand(calcDifference(second.Q, m_arc.Q), exact() * calcGrowth(), "8 (two parts make the whole)");
         const double a = second.a * first.a + second.r * first.aDot, r = second.a * first.r + second.r * first.rDot;
         const double aDot = second.aDot * first.a + second.rDot * first.aDot;
@@ -217,13 +217,13 @@ private:
             return shoot(m_point, std::cos(by) * P.t + std::sin(by) * P.B, m_sample.length).Q;
         };
         const auto moved = [&](double by) {
-            const Geodesic aside = shoot(m_point, P.B, by);  // its binormal is -t, carried parallel
+            const ShotGeodesic aside = shoot(m_point, P.B, by);  // its binormal is -t, carried parallel
             return shoot(aside.endPoint, -aside.Q.B, m_sample.length).Q;
         };
         // The field at Q is along B, and its derivative is the B part of what t changes by.
         const auto compare = [&](const DarbouxFrame& plus, const DarbouxFrame& minus, double by, double field,
                                  double rate, double unit, const char* law) {
-            const Vec3 dx = (plus.x - minus.x) / (2 * by), dt = (plus.t - minus.t) / (2 * by);
+            const Vector3 dx = (plus.x - minus.x) / (2 * by), dt = (plus.t - minus.t) / (2 * by);
             const double limit = m_options.differenceTolerance * growth * unit;
             demand((dx - field * Q.B).norm() / m_size, limit, law);
             demand(std::abs(dt.dot(Q.B) - rate), limit, law);
@@ -235,24 +235,24 @@ private:
     }
 
     void checkZeroLength() {
-        const Geodesic none = shoot(m_point, m_frame.t, 0);
+        const ShotGeodesic none = shoot(m_point, m_frame.t, 0);
         demand(calcDifference(none.Q, m_frame), 1e-12, "11 (zero length)");
         demand(std::abs(none.a - 1) + std::abs(none.r) / m_size, 1e-12, "11 (zero length: a = 1, r = 0)");
     }
 
     void checkAnyPoint() {
         for (const double far : {0.0, 0.3, 3.0, 1e4}) {
-            Vec3 N;
-            const Vec3 p =
+            Vector3 N;
+            const Vector3 p =
                 m_point.p + far * m_size * m_sample.direction_S.normalized() - (far < 1 ? far * m_size : 0) * m_frame.N;
             const double height = m_surface.calcHeightAndNormal(p, N);
             demand(std::isfinite(height) && std::abs(N.norm() - 1) < 1e-9 ? 0 : 1, 0,
                    "12 (height finite, N_S unit anywhere)");
             demand(m_surface.findSurfacePoint(p).p.allFinite() ? 0 : 1, 0, "12 (surface point finite anywhere)");
         }
-        Vec3 N;
-        const bool isFinite = std::isfinite(m_surface.calcHeightAndNormal(Vec3::Zero(), N)) && N.allFinite() &&
-                              m_surface.findSurfacePoint(Vec3::Zero()).p.allFinite();
+        Vector3 N;
+        const bool isFinite = std::isfinite(m_surface.calcHeightAndNormal(Vector3::Zero(), N)) && N.allFinite() &&
+                              m_surface.findSurfacePoint(Vector3::Zero()).p.allFinite();
         demand(isFinite ? 0 : 1, 0, "12 (the origin too)");
     }
 
@@ -265,11 +265,11 @@ private:
             return std::string("13 (") + of + "d" + "xyz"[i] + (j < 0 ? "" : std::string("d") + "xyz"[j]);
         };
         for (int i = 0; i < 3; ++i) {
-            m_surface.calcImplicitForm(m_point.p + step * Vec3::Unit(i), plus);
-            m_surface.calcImplicitForm(m_point.p - step * Vec3::Unit(i), minus);
+            m_surface.calcImplicitForm(m_point.p + step * Vector3::Unit(i), plus);
+            m_surface.calcImplicitForm(m_point.p - step * Vector3::Unit(i), minus);
             demand(std::abs(at.gradient[i] - (plus.f - minus.f) / (2 * step)), limit,
                    entry("df/", i, -1) + " is the difference of f)");
-            const Vec3 column = (plus.gradient - minus.gradient) / (2 * step);
+            const Vector3 column = (plus.gradient - minus.gradient) / (2 * step);
             for (int j = 0; j < 3; ++j)
                 demand(std::abs(at.hessian(j, i) - column[j]), limit * m_curvature,
                        entry("d2f/", i, j) + " is the difference of the gradient)");
@@ -283,8 +283,8 @@ private:
         ParametricValue at, plus, minus;
         if (!m_surface.calcParametricForm(m_point, at)) return;
         const double step = m_options.differenceStep * std::min(m_size, 1 / m_curvature);
-        const Vec3* const first[] = {&at.xu, &at.xv};
-        const Vec3* const second[2][2] = {{&at.xuu, &at.xuv}, {&at.xuv, &at.xvv}};
+        const Vector3* const first[] = {&at.xu, &at.xv};
+        const Vector3* const second[2][2] = {{&at.xuu, &at.xuv}, {&at.xuv, &at.xvv}};
         for (int i = 0; i < 2; ++i) {
             const double speed = first[i]->norm(), h = step / speed;
             const auto move = [&](double by, ParametricValue& value) {
@@ -297,7 +297,7 @@ private:
             demand((*first[i] - (plus.x - minus.x) / (2 * h)).norm(), m_options.differenceTolerance * speed,
                    "13 (dx/d" + name + " is the difference of x)");
             for (int j = 0; j < 2; ++j) {
-                const Vec3 difference = j == 0 ? Vec3(plus.xu - minus.xu) : Vec3(plus.xv - minus.xv);
+                const Vector3 difference = j == 0 ? Vector3(plus.xu - minus.xu) : Vector3(plus.xv - minus.xv);
                 const double unit = std::max(speed * first[j]->norm() * m_curvature, second[i][j]->norm());
                 demand((*second[i][j] - difference / (2 * h)).norm(), m_options.differenceTolerance * unit,
                        "13 (d2x/d" + name + "d" + "uv"[j] + " is the difference of dx/d" + "uv"[j] + ")");
@@ -309,7 +309,7 @@ private:
     double m_curvature = 0, m_endCurvature = 0;
     SurfacePoint m_point;
     DarbouxFrame m_frame;
-    Geodesic m_arc;
+    ShotGeodesic m_arc;
 };
 
 /** Checks at one sample whether two surfaces are the same one. */
@@ -340,21 +340,21 @@ private:
         m_secondPoint = m_second.findSurfacePoint(m_firstPoint.p);
         demand((m_firstPoint.p - m_secondPoint.p).norm() / m_size, exact(),
                "14 (points of the first lie on the second)");
-        const Vec3 p = m_second.findSurfacePoint(m_sample.p_S).p;
+        const Vector3 p = m_second.findSurfacePoint(m_sample.p_S).p;
         demand((p - m_first.findSurfacePoint(p).p).norm() / m_size, exact(),
                "14 (points of the second lie on the first)");
     }
 
     /** Heights are the same to first order only, so what is even in the distance from the surface is left free. */
     void checkHeights() {
-        const auto calcPair = [&](const Vec3& p) { return Vec2(m_first.calcHeight(p), m_second.calcHeight(p)); };
-        const auto demandOneSign = [&](const Vec2& pair) {
+        const auto calcPair = [&](const Vector3& p) { return Vector2(m_first.calcHeight(p), m_second.calcHeight(p)); };
+        const auto demandOneSign = [&](const Vector2& pair) {
             const bool isOnSurface = pair.cwiseAbs().maxCoeff() <= exact() * m_size;
             demand(isOnSurface ? 0 : -pair[0] * pair[1], 0, "15 (heights of one sign)");
         };
         const double step = m_options.differenceStep * std::min(m_size, 1 / calcUnitCurvature(m_firstFrame));
-        const Vec2 above = calcPair(m_firstFrame.x + step * m_firstFrame.N),
-                   below = calcPair(m_firstFrame.x - step * m_firstFrame.N), slopes = (above - below) / (2 * step);
+        const Vector2 above = calcPair(m_firstFrame.x + step * m_firstFrame.N),
+                      below = calcPair(m_firstFrame.x - step * m_firstFrame.N), slopes = (above - below) / (2 * step);
         demandOneSign(above), demandOneSign(below), demandOneSign(calcPair(m_sample.p_S));
         demand(std::abs(slopes[0] - slopes[1]), m_options.differenceTolerance, "15 (slopes of the heights equal)");
     }
@@ -368,8 +368,8 @@ private:
     }
 
     void checkGeodesics() {
-        const Geodesic g = shoot(m_first, m_firstPoint, m_firstFrame.t, m_sample.length);
-        const Geodesic h = shoot(m_second, m_secondPoint, m_firstFrame.t, m_sample.length);
+        const ShotGeodesic g = shoot(m_first, m_firstPoint, m_firstFrame.t, m_sample.length);
+        const ShotGeodesic h = shoot(m_second, m_secondPoint, m_firstFrame.t, m_sample.length);
         const double limit = exact() * calcGrowth(g);
         demand(g.converged && h.converged ? 0 : 1, 0, "18 (both geodesics converged)");
         demand((g.Q.x - h.Q.x).norm() / m_size, limit, "18 (geodesics end at the same place)");

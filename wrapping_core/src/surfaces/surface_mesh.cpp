@@ -25,7 +25,7 @@ public:
     enum class Growth { Complete, OutOfBox, TooManyCells };
 
     /** @param center   a surface point: the middle of cell (0, 0, 0) @param step   width of the cells */
-    SurfaceNet(const Surface& surface, const Vec3& center, double step)
+    SurfaceNet(const Surface& surface, const Vector3& center, double step)
         : m_surface(surface),
           m_center(center),
           m_step(step),
@@ -33,9 +33,9 @@ public:
 
     /** The cells farthest out first, which soon shows whether the surface has an end.
     @param box   cells beyond it are not entered @param stopsThere   nor is anything else after such a cell */
-    Growth grow(const std::vector<Vec3>& seeds, const Eigen::AlignedBox3d& box, bool stopsThere) {
+    Growth grow(const std::vector<Vector3>& seeds, const Eigen::AlignedBox3d& box, bool stopsThere) {
         constexpr std::size_t kMaxCells = 20000;
-        for (const Vec3& seed : seeds) addAround(findCell(seed));
+        for (const Vector3& seed : seeds) addAround(findCell(seed));
         Growth growth = Growth::Complete;
         while (!m_front.empty()) {
             const Index cell = m_front.top().second;
@@ -60,7 +60,7 @@ public:
             return found->second;
         };
         forEachFace([&](const std::array<Index, 4>& corners) {
-            std::array<Vec3, 4> p;
+            std::array<Vector3, 4> p;
             for (int i = 0; i < 4; ++i) p[i] = m_cells.at(corners[i]).point;
             // A point that is on the domain's edge already leaves no width to what is pulled back to it.
             constexpr double kNoArea = 1e-6;  // of a facet's: below it a normal means nothing
@@ -73,12 +73,12 @@ public:
 
 private:
     struct Cell {
-        Vec3 point;
+        Vector3 point;
         bool isInDomain;
-        Vec3 inside = Vec3::Constant(kNaN);  ///< beyond the domain's edge: the nearest point of a neighbor within
+        Vector3 inside = Vector3::Constant(kNaN);  ///< beyond the domain's edge: the nearest point of a neighbor within
     };
 
-    Index findCell(const Vec3& p) const {
+    Index findCell(const Vector3& p) const {
         Index cell;
         for (int i = 0; i < 3; ++i) cell[i] = static_cast<int>(std::lround((p[i] - m_center[i]) / m_step));
         return cell;
@@ -86,14 +86,14 @@ private:
 
     /** Whether some of the cell's points are nearer than half a cell to the box: so the box ends within the facets. */
     bool reaches(const Eigen::AlignedBox3d& box, const Index& cell) const {
-        const Vec3 middle = m_center + m_step * Vec3(cell[0], cell[1], cell[2]);
+        const Vector3 middle = m_center + m_step * Vector3(cell[0], cell[1], cell[2]);
         constexpr double kRounding = 1e-9;
         return ((middle - box.max()).array() < (1 - kRounding) * m_step).all() &&
                ((box.min() - middle).array() < (1 - kRounding) * m_step).all();
     }
 
-    Vec3 calcNode(const Index& node) const {
-        return m_center + m_step * (Vec3(node[0], node[1], node[2]) - Vec3::Constant(0.5));
+    Vector3 calcNode(const Index& node) const {
+        return m_center + m_step * (Vector3(node[0], node[1], node[2]) - Vector3::Constant(0.5));
     }
 
     double getHeight(const Index& node) {
@@ -103,10 +103,10 @@ private:
     }
 
     /** Beside the domain that above the surface that goes on there: what lies below the domain would have walls. */
-    double calcFootHeight(const Vec3& p) const {
+    double calcFootHeight(const Vector3& p) const {
         if (!m_hasEdge) return m_surface.calcHeight(p);
         const SurfacePoint foot = m_surface.findSurfacePoint(p);
-        return m_surface.calcFrame(foot, Vec3::UnitX()).N.dot(p - foot.p);
+        return m_surface.calcFrame(foot, Vector3::UnitX()).N.dot(p - foot.p);
     }
 
     bool isCut(const Index& node, int axis) { return (getHeight(node) < 0) != (getHeight(shift(node, axis, 1)) < 0); }
@@ -143,11 +143,11 @@ private:
 
     /** @return whether the surface passes through the cell and goes on from there */
     bool enter(const Index& cell) {
-        Vec3 sum = Vec3::Zero();
+        Vector3 sum = Vector3::Zero();
         int count = 0;
         forEachCutEdge(cell, [&](const Index& node, int axis) {
             const double from = getHeight(node), to = getHeight(shift(node, axis, 1));
-            sum += calcNode(node) + m_step * from / (from - to) * Vec3::Unit(axis);
+            sum += calcNode(node) + m_step * from / (from - to) * Vector3::Unit(axis);
             ++count;
         });
         if (count == 0) return false;
@@ -193,10 +193,10 @@ private:
     }
 
     /** The last point of the domain on the way out, by halving. */
-    Vec3 findEdge(const Cell& cell) const {
+    Vector3 findEdge(const Cell& cell) const {
         constexpr int kHalvings = 40;
         double inside = 0, outside = 1;
-        Vec3 result = cell.inside;
+        Vector3 result = cell.inside;
         for (int i = 0; i < kHalvings; ++i) {
             const double middle = 0.5 * (inside + outside);
             const SurfacePoint point = m_surface.findSurfacePoint(cell.inside + middle * (cell.point - cell.inside));
@@ -209,7 +209,7 @@ private:
     }
 
     const Surface& m_surface;
-    Vec3 m_center;
+    Vector3 m_center;
     double m_step;
     bool m_hasEdge;  ///< of its domain
     std::map<Index, double> m_heights;
@@ -227,12 +227,12 @@ bool moveIntoDomain(const Surface& surface, SurfacePoint& point) {
     for (int i = 0; i < kMaxSteps && !surface.isInDomain(point); ++i) {
         const double margin = surface.calcDomainMargin(point);
         if (!std::isfinite(margin)) return false;
-        const DarbouxFrame frame = surface.calcFrame(point, Vec3(1, 0.3, 0.2));
-        const auto calcSlope = [&](const Vec3& axis) {
+        const DarbouxFrame frame = surface.calcFrame(point, Vector3(1, 0.3, 0.2));
+        const auto calcSlope = [&](const Vector3& axis) {
             return (surface.calcDomainMargin(surface.calcDisplacedPoint(point, difference * axis)) - margin) /
                    difference;
         };
-        const Vec3 slope = calcSlope(frame.t) * frame.t + calcSlope(frame.B) * frame.B;
+        const Vector3 slope = calcSlope(frame.t) * frame.t + calcSlope(frame.B) * frame.B;
         const double needed = 1.1 * std::abs(margin) / slope.norm();
         if (!std::isfinite(needed)) return false;
         point = surface.calcDisplacedPoint(point, std::min(needed, longest) * slope.normalized());
@@ -241,14 +241,14 @@ bool moveIntoDomain(const Surface& surface, SurfacePoint& point) {
 }
 
 /** Points of the surface within its domain, that nearest to the origin of S first where it can be found. */
-std::vector<Vec3> findSeeds(const Surface& surface, const std::vector<Vec3>& near_S) {
+std::vector<Vector3> findSeeds(const Surface& surface, const std::vector<Vector3>& near_S) {
     const double size = surface.getSize();
-    std::vector<Vec3> starts{Vec3::Zero()};
+    std::vector<Vector3> starts{Vector3::Zero()};
     for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {size, -size}) starts.push_back(side * Vec3::Unit(axis));
+        for (const double side : {size, -size}) starts.push_back(side * Vector3::Unit(axis));
     starts.insert(starts.end(), near_S.begin(), near_S.end());
-    std::vector<Vec3> seeds;
-    for (const Vec3& start : starts) {
+    std::vector<Vector3> seeds;
+    for (const Vector3& start : starts) {
         SurfacePoint point = surface.findSurfacePoint(start);
         // A search that did not arrive goes on from where it ended.
         if (!point.p.allFinite() || !((surface.findSurfacePoint(point.p).p - point.p).norm() < 1e-6 * size)) continue;
@@ -257,15 +257,15 @@ std::vector<Vec3> findSeeds(const Surface& surface, const std::vector<Vec3>& nea
     return seeds;
 }
 
-Eigen::AlignedBox3d calcBox(const std::vector<Vec3>& points, double margin) {
+Eigen::AlignedBox3d calcBox(const std::vector<Vector3>& points, double margin) {
     Eigen::AlignedBox3d box;
-    for (const Vec3& p : points) box.extend(p);
-    return {box.min() - Vec3::Constant(margin), box.max() + Vec3::Constant(margin)};
+    for (const Vector3& p : points) box.extend(p);
+    return {box.min() - Vector3::Constant(margin), box.max() + Vector3::Constant(margin)};
 }
 
 /** @param cuts   whether the surface is drawn as far as the box, or not at all if it goes on beyond
 @return Complete, and facets in the mesh, or why there are none */
-SurfaceNet::Growth cover(const Surface& surface, const std::vector<Vec3>& seeds, double step,
+SurfaceNet::Growth cover(const Surface& surface, const std::vector<Vector3>& seeds, double step,
                          const Eigen::AlignedBox3d& box, bool cuts, SurfaceMesh& mesh) {
     using Growth = SurfaceNet::Growth;
     SurfaceNet net(surface, seeds.front(), step);
@@ -279,12 +279,12 @@ SurfaceNet::Growth cover(const Surface& surface, const std::vector<Vec3>& seeds,
 
 }  // namespace
 
-SurfaceMesh calcSurfaceMesh(const Surface& surface, double extent, const std::vector<Vec3>& near_S) {
+SurfaceMesh calcSurfaceMesh(const Surface& surface, double extent, const std::vector<Vector3>& near_S) {
     constexpr double kFacetsPerSize = 6, kCoarsening = 1.5;
     constexpr double kFar = 1000;  // in sizes: what goes on beyond has no end
     using Growth = SurfaceNet::Growth;
     SurfaceMesh mesh;
-    const std::vector<Vec3> seeds = findSeeds(surface, near_S);
+    const std::vector<Vector3> seeds = findSeeds(surface, near_S);
     if (seeds.empty()) return mesh;
     const Eigen::AlignedBox3d far = calcBox({seeds.front()}, kFar * surface.getSize()), near = calcBox(seeds, extent);
     Growth growth = Growth::TooManyCells;
@@ -293,7 +293,7 @@ SurfaceMesh calcSurfaceMesh(const Surface& surface, double extent, const std::ve
         growth = cover(surface, seeds, step, far, false, mesh);
         if (growth == Growth::OutOfBox) growth = cover(surface, seeds, step, near, true, mesh);
     }
-    for (const Vec3& p : near_S) mesh.box.extend(p);
+    for (const Vector3& p : near_S) mesh.box.extend(p);
     return mesh;
 }
 

@@ -23,12 +23,12 @@ std::string Torus::getDescription() const {
     return describeShape("torus(ring radius=", m_ringRadius, ", tube radius=", m_tubeRadius, ")");
 }
 
-double Torus::calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const {
+double Torus::calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const {
     const double rho = std::hypot(p_S.x(), p_S.y());
-    const Vec3 radial = rho > 0 ? Vec3(p_S.x() / rho, p_S.y() / rho, 0) : Vec3(Vec3::UnitX());
-    const Vec3 fromTube = p_S - m_ringRadius * radial;
+    const Vector3 radial = rho > 0 ? Vector3(p_S.x() / rho, p_S.y() / rho, 0) : Vector3(Vector3::UnitX());
+    const Vector3 fromTube = p_S - m_ringRadius * radial;
     const double distance = fromTube.norm();
-    N_S = distance > 0 ? Vec3(fromTube / distance) : Vec3(Vec3::UnitZ());
+    N_S = distance > 0 ? Vector3(fromTube / distance) : Vector3(Vector3::UnitZ());
     return distance - m_tubeRadius;
 }
 

@@ -39,8 +39,8 @@ public:
     /** A number that must be greater than zero. */
     double requirePositive(const std::string& tag);
     double getNumberOr(const std::string& tag, double fallback);
-    Vec3 requireVec3(const std::string& tag);
-    Vec3 getVec3Or(const std::string& tag, const Vec3& fallback);
+    Vector3 requireVec3(const std::string& tag);
+    Vector3 getVec3Or(const std::string& tag, const Vector3& fallback);
     /** Any number of numbers. */
     std::vector<double> requireNumbers(const std::string& tag);
     bool getBoolOr(const std::string& tag, bool fallback);

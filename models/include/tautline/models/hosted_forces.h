@@ -15,7 +15,7 @@ class HostedForces {
 public:
     using BodyNames = std::map<std::string, SimTK::MobilizedBodyIndex>;
 
-    /** Reads a document of forces, see readForcesText(), and adds them to the host: a CableSubsystem with the cables,
+    /** Reads a document of forces, see readForcesText(), and adds them to the host: a CablePathSubsystem with the cables,
     and the forces to the host's first GeneralForceSubsystem. The host's topology must be realized anew, and its
     default state is the pose in which a PathWrap without a range is bound to a segment of its path. Whatever is
     refused is refused before anything is added.
@@ -33,12 +33,12 @@ public:
     const ModelDescription& getDescription() const { return m_description; }
     const ModelPaths& getPaths() const { return *m_paths; }
     ModelPaths& updPaths() { return *m_paths; }
-    const CableSubsystem& getCables() const { return *m_cables; }
+    const CablePathSubsystem& getCables() const { return *m_cables; }
 
 private:
     BodyNames m_bodies;
     ModelDescription m_description;
-    std::optional<CableSubsystem> m_cables;
+    std::optional<CablePathSubsystem> m_cables;
     std::optional<ModelPaths> m_paths;
 };
 

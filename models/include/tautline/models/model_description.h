@@ -32,7 +32,7 @@ inline constexpr const char* kGroundName = "ground";
 struct Body {
     std::string name;
     double mass = 0.0;
-    Vec3 massCenter = Vec3::Zero();
+    Vector3 massCenter = Vector3::Zero();
     /** About the mass center: xx, yy, zz, xy, xz, yz. */
     std::array<double, 6> inertia{};
     int line = 0;
@@ -55,7 +55,7 @@ struct Coordinate {
 struct TransformAxis {
     /** The function's arguments; none: its value at 0 holds always. */
     std::vector<std::string> coordinates;
-    Vec3 axis = Vec3::Zero();
+    Vector3 axis = Vector3::Zero();
     MultivariateFunction function;
     int line = 0;
 };
@@ -74,7 +74,7 @@ struct Joint {
     /** Custom joints only: three turns, each carrying the next, then three shifts. */
     std::array<TransformAxis, 6> axes;
     /** Ellipsoid joints only: the origin of the child's frame rides on this ellipsoid, its z axis along the normal. */
-    Vec3 semiAxes = Vec3::Zero();
+    Vector3 semiAxes = Vector3::Zero();
     int line = 0;
 };
 
@@ -92,9 +92,9 @@ struct CoordinateCoupler {
 struct PointConstraint {
     std::string name;
     std::string body1;
-    Vec3 location1 = Vec3::Zero();
+    Vector3 location1 = Vector3::Zero();
     std::string body2;
-    Vec3 location2 = Vec3::Zero();
+    Vector3 location2 = Vector3::Zero();
     int line = 0;
 };
 
@@ -112,10 +112,10 @@ struct WeldConstraint {
 struct PointOnLineConstraint {
     std::string name;
     std::string lineBody;
-    Vec3 pointOnLine = Vec3::Zero();
-    Vec3 direction = Vec3::Zero();
+    Vector3 pointOnLine = Vector3::Zero();
+    Vector3 direction = Vector3::Zero();
     std::string followerBody;
-    Vec3 follower = Vec3::Zero();
+    Vector3 follower = Vector3::Zero();
     int line = 0;
 };
 
@@ -123,9 +123,9 @@ struct PointOnLineConstraint {
 struct ConstantDistanceConstraint {
     std::string name;
     std::string body1;
-    Vec3 location1 = Vec3::Zero();
+    Vector3 location1 = Vector3::Zero();
     std::string body2;
-    Vec3 location2 = Vec3::Zero();
+    Vector3 location2 = Vector3::Zero();
     double distance = 0.0;
     int line = 0;
 };
@@ -142,7 +142,7 @@ struct SphereShape {
     double radius = 0.0;
 };
 struct EllipsoidShape {
-    Vec3 semiAxes = Vec3::Zero();
+    Vector3 semiAxes = Vector3::Zero();
 };
 /** Ring in the xy plane; the path goes through the hole. */
 struct TorusShape {
@@ -209,7 +209,7 @@ struct PathPoint {
     std::string name;
     std::string body;
     /** In the body; not used by moving points. */
-    Vec3 location = Vec3::Zero();
+    Vector3 location = Vector3::Zero();
     std::variant<FixedLocation, ConditionalLocation, MovingLocation> kind;
     int line = 0;
 };
@@ -218,8 +218,8 @@ enum class WrapMethod { Hybrid, Midpoint, Axial };
 
 /** A geodesic from which the iteration of a path may start, in the frame of the wrap object. */
 struct WrapStart {
-    Vec3 point = Vec3::Zero();
-    Vec3 direction = Vec3::Zero();
+    Vector3 point = Vector3::Zero();
+    Vector3 direction = Vector3::Zero();
     double length = 0.0;
     int line = 0;
 };
@@ -232,7 +232,7 @@ struct PathWrap {
     /** First and last point between which the path may wrap, counted from 1; -1 is the end. */
     std::array<int, 2> range{-1, -1};
     /** A point near which the path runs at first, in the frame of the wrap object. */
-    std::optional<Vec3> hint;
+    std::optional<Vector3> hint;
     std::optional<WrapStart> start;
     int line = 0;
 };
@@ -359,9 +359,9 @@ struct BushingForce {
 
 struct PointToPointSpring {
     std::string body1;
-    Vec3 point1 = Vec3::Zero();
+    Vector3 point1 = Vector3::Zero();
     std::string body2;
-    Vec3 point2 = Vec3::Zero();
+    Vector3 point2 = Vector3::Zero();
     double stiffness = 0.0;
     double restLength = 0.0;
 };
@@ -438,7 +438,7 @@ struct BodyMesh {
     std::string file;  ///< as the model names it; may be a bare name
     std::string body;
     Pose X_BM;
-    Vec3 scale = Vec3::Ones();  ///< by which the mesh's coordinates are multiplied, in its own frame
+    Vector3 scale = Vector3::Ones();  ///< by which the mesh's coordinates are multiplied, in its own frame
     int line = 0;
 };
 
@@ -469,7 +469,7 @@ struct ModelDescription {
     std::string fileName;
     std::string name;
     int documentVersion = 0;
-    Vec3 gravity = Vec3::Zero();
+    Vector3 gravity = Vector3::Zero();
     std::vector<Body> bodies;
     std::vector<Joint> joints;
     /** Those that the model enforces. */

@@ -11,7 +11,7 @@
 #include "tautline/models/wrap_binding.h"
 #include "tautline/simbody/cable.h"
 #include "tautline/simbody/cable_forces.h"
-#include "tautline/simbody/cable_subsystem.h"
+#include "tautline/simbody/cable_path_subsystem.h"
 #include "tautline/simbody/muscle.h"
 
 namespace tautline::models {
@@ -79,7 +79,7 @@ public:
     @throws ModelError for a path whose first or last point is conditional, naming the point and its line; InvalidInput
     for what a cable or force refuses. What was added before stays. */
     ModelPaths(const ModelDescription& description, const std::vector<std::vector<BoundWrap>>& wraps,
-               const BuiltModel& bodies, SimTK::GeneralForceSubsystem& forces, CableSubsystem& cables);
+               const BuiltModel& bodies, SimTK::GeneralForceSubsystem& forces, CablePathSubsystem& cables);
 
     const std::vector<MuscleSlot>& getMuscles() const { return m_muscles; }
     std::vector<MuscleSlot>& updMuscles() { return m_muscles; }

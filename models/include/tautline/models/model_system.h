@@ -7,7 +7,7 @@
 
 #include "tautline/models/model_builder.h"
 #include "tautline/models/model_paths.h"
-#include "tautline/simbody/cable_subsystem.h"
+#include "tautline/simbody/cable_path_subsystem.h"
 
 namespace tautline::models {
 
@@ -33,7 +33,7 @@ public:
     SimTK::GeneralForceSubsystem& updForces() { return m_forces; }
     const SimTK::MultibodySystem& getSystem() const { return m_system; }
     const BuiltModel& getModel() const { return m_model; }
-    const CableSubsystem& getCables() const { return m_cables; }
+    const CablePathSubsystem& getCables() const { return m_cables; }
     const std::vector<MuscleSlot>& getMuscles() const { return m_paths->getMuscles(); }
     std::vector<MuscleSlot>& updMuscles() { return m_paths->updMuscles(); }
     const std::vector<SpringSlot>& getSprings() const { return m_paths->getSprings(); }
@@ -67,7 +67,7 @@ private:
     SimTK::MultibodySystem m_system;
     SimTK::SimbodyMatterSubsystem m_matter;
     SimTK::GeneralForceSubsystem m_forces;
-    CableSubsystem m_cables;
+    CablePathSubsystem m_cables;
     BuiltModel m_model;
     std::optional<ModelPaths> m_paths;
     std::optional<SimTK::GeneralContactSubsystem> m_contacts;

@@ -11,7 +11,7 @@
 #include "tautline/paths/path_solver.h"
 #include "tautline/paths/path_verification.h"
 #include "tautline/paths/start_hint.h"
-#include "tautline/simbody/cable_subsystem.h"
+#include "tautline/simbody/cable_path_subsystem.h"
 #include "tautline/simbody/hints.h"
 #include "tautline/simbody/mobility_screws.h"
 #include "tautline/simbody/moving_station.h"
@@ -63,7 +63,7 @@ struct CableStatistics {
     long numSlips = 0;            ///< paths that lost their stability and were left by the event handlers
     long numHolesLeft = 0;        ///< rings that the cable went through in a step
     double seconds = 0;           ///< spent in the solver
-    long numSteps = 0;            ///< accepted steps that CableSubsystem::countStep() was told of
+    long numSteps = 0;            ///< accepted steps that CablePathSubsystem::countStep() was told of
     long numDegradedSteps = 0;    ///< of those, with a status other than Solved: Cable::calcStatus()
     double largestPathError = 0;  ///< in those steps: Cable::getPathError(), NaN if it once was that
 };
@@ -86,7 +86,7 @@ private:
 /** A taut, frictionless, massless string from a point on one body over via points and smooth obstacles on
 others to a point on another: the shortest path, found on its own side of each obstacle.
 
-A Cable is a light handle: copy it freely, its contents belong to the CableSubsystem.
+A Cable is a light handle: copy it freely, its contents belong to the CablePathSubsystem.
 
 Frames: B a body, E an element's frame (its station on B, or the surface frame S), G ground. Units: SI.
 Each query says which stage it needs; asked too early it throws Simbody's own stage error. A query on a
@@ -99,7 +99,7 @@ public:
     @param originStation_B, insertionStation_B   finite, measured in the body's frame [m]
     @param name   for messages and decorations, unique within the subsystem; empty: "cable0", "cable1", ...
     @throws InvalidInput with the value */
-    Cable(CableSubsystem& cables, const CableBody& originBody, const SimTK::Vec3& originStation_B,
+    Cable(CablePathSubsystem& cables, const CableBody& originBody, const SimTK::Vec3& originStation_B,
           const CableBody& insertionBody, const SimTK::Vec3& insertionStation_B, std::string name = "");
 
     /** @name Building: before realizeTopology()
@@ -174,7 +174,7 @@ public:
     bool isEmptyHandle() const { return m_impl == nullptr; }
     const std::string& getName() const;
     CableIndex getCableIndex() const;
-    const CableSubsystem& getSubsystem() const;
+    const CablePathSubsystem& getSubsystem() const;
     const SimTK::SimbodyMatterSubsystem& getMatterSubsystem() const;
     /** Origin and insertion included. */
     int getNumElements() const;
@@ -339,7 +339,7 @@ public:
     void resetStatistics() const;
 
 private:
-    friend class CableSubsystemImpl;
+    friend class CablePathSubsystemImpl;
     explicit Cable(CableImpl* impl) : m_impl(impl) {}
     SimTK::MobilizedBodyIndex findBody(const CableBody& body) const;
     CableImpl& upd() const;

@@ -8,14 +8,14 @@
 
 namespace tautline {
 
-/** Draws all cables of a subsystem and their obstacles, touched ones in a color of their own. A CableSubsystem does so by
-itself; in colors of your own, after CableSubsystem::setShowDecorations(false):
+/** Draws all cables of a subsystem and their obstacles, touched ones in a color of their own. A CablePathSubsystem does so
+by itself; in colors of your own, after CablePathSubsystem::setShowDecorations(false):
 `visualizer.addDecorationGenerator(new CableDecorations(cables))`. Sphere, cylinder, ellipsoid and torus are Simbody's
 own shapes, every other surface is a mesh (calcSurfaceMesh()), laid when it is first drawn. */
 class CableDecorations : public SimTK::DecorationGenerator {
 public:
     /** @param cables   must outlive the visualizer, as its system does */
-    explicit CableDecorations(const CableSubsystem& cables) : m_cables(cables) {}
+    explicit CableDecorations(const CablePathSubsystem& cables) : m_cables(cables) {}
 
     CableDecorations& setCableColor(const SimTK::Vec3& color);
     CableDecorations& setSurfaceColor(const SimTK::Vec3& color);
@@ -35,14 +35,14 @@ private:
     struct Picture {
         SimTK::PolygonalMesh mesh;
         Eigen::AlignedBox3d box;
-        std::vector<Vec3> touched_S;
+        std::vector<Vector3> touched_S;
     };
 
     SimTK::DecorativeGeometry calcPicture(const Cable& cable, CableElementIndex obstacle, const SimTK::State& state);
     const SimTK::PolygonalMesh& findMesh(const std::shared_ptr<const Surface>& surface,
-                                         const std::vector<Vec3>& touched_S);
+                                         const std::vector<Vector3>& touched_S);
 
-    const CableSubsystem& m_cables;
+    const CablePathSubsystem& m_cables;
     SimTK::Vec3 m_cableColor = SimTK::Red;
     SimTK::Vec3 m_surfaceColor = SimTK::Cyan;
     SimTK::Vec3 m_touchedSurfaceColor = SimTK::Orange;

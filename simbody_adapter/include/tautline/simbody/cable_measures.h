@@ -11,7 +11,7 @@ namespace tautline {
 PeriodicEventReporter, of a task. Its first derivative is the exact rate. Stage: Position, Velocity. */
 class CableLengthMeasure : public SimTK::Measure {
 public:
-    /** @param subsystem   that owns the Measure: any of the cable's System, such as the CableSubsystem */
+    /** @param subsystem   that owns the Measure: any of the cable's System, such as the CablePathSubsystem */
     CableLengthMeasure(SimTK::Subsystem& subsystem, const Cable& cable);
 };
 

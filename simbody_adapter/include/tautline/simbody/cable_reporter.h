@@ -23,7 +23,7 @@ disabled has nan. */
 class CableReporter : public SimTK::PeriodicEventReporter {
 public:
     /** @param interval   [s], positive */
-    CableReporter(const CableSubsystem& cables, SimTK::Real interval);
+    CableReporter(const CablePathSubsystem& cables, SimTK::Real interval);
     /** Adds a column of tension; before the study. */
     void addForce(const CableForce& force);
 
@@ -38,7 +38,7 @@ public:
     void writeStorage(const std::string& file) const;
 
 private:
-    const CableSubsystem& m_cables;
+    const CablePathSubsystem& m_cables;
     std::vector<CableForce> m_forces;
     mutable std::vector<std::vector<SimTK::Real>> m_rows;  ///< Simbody reports through const functions
 };

@@ -28,8 +28,8 @@ public:
     const SimTK::ContactGeometry& getContactGeometry() const { return m_geometry; }
     std::string getDescription() const override;
     double getSize() const override { return m_size; }
-    ImplicitValue calcImplicit(const Vec3& p_S) const override;
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
+    ImplicitValue calcImplicit(const Vector3& p_S) const override;
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override;
     double calcDomainMargin(const SurfacePoint& point) const override;
 
 private:

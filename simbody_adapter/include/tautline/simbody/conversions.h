@@ -7,20 +7,20 @@
 
 namespace tautline {
 
-inline Vec3 toEigen(const SimTK::Vec3& v) {
+inline Vector3 toEigen(const SimTK::Vec3& v) {
     return {v[0], v[1], v[2]};
 }
-inline SimTK::Vec3 toSimTK(const Vec3& v) {
+inline SimTK::Vec3 toSimTK(const Vector3& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-inline Mat3 toEigen(const SimTK::Mat33& m) {
-    Mat3 result;
+inline Matrix3 toEigen(const SimTK::Mat33& m) {
+    Matrix3 result;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) result(i, j) = m(i, j);
     return result;
 }
-inline SimTK::Mat33 toSimTK(const Mat3& m) {
+inline SimTK::Mat33 toSimTK(const Matrix3& m) {
     SimTK::Mat33 result;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) result(i, j) = m(i, j);

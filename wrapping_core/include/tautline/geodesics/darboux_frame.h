@@ -14,13 +14,13 @@ second fundamental form in the basis {t, B}. N points outward and B = t x N. Sig
 so that kappaN < 0 where a string presses on a convex surface. All vectors in one frame, which the
 owner names (S in surfaces and geodesics, G in path segments). Curvatures in 1/m. */
 struct DarbouxFrame {
-    Vec3 x = Vec3::Constant(kNaN);  ///< the point
-    Vec3 t = Vec3::Constant(kNaN);  ///< unit tangent
-    Vec3 N = Vec3::Constant(kNaN);  ///< unit outward normal
-    Vec3 B = Vec3::Constant(kNaN);  ///< unit binormal t x N
-    double kappaN = kNaN;           ///< normal curvature along t: -t . dN(t)
-    double tauG = kNaN;             ///< geodesic torsion along t: B . dN(t)
-    double kappaB = kNaN;           ///< normal curvature along B: -B . dN(B)
+    Vector3 x = Vector3::Constant(kNaN);  ///< the point
+    Vector3 t = Vector3::Constant(kNaN);  ///< unit tangent
+    Vector3 N = Vector3::Constant(kNaN);  ///< unit outward normal
+    Vector3 B = Vector3::Constant(kNaN);  ///< unit binormal t x N
+    double kappaN = kNaN;                 ///< normal curvature along t: -t . dN(t)
+    double tauG = kNaN;                   ///< geodesic torsion along t: B . dN(t)
+    double kappaB = kNaN;                 ///< normal curvature along B: -B . dN(B)
 
     /** Gaussian curvature [1/m^2] (determinant of the second fundamental form). */
     double calcGaussianCurvature() const { return kappaN * kappaB - tauG * tauG; }
@@ -32,8 +32,8 @@ struct DarbouxFrame {
 };
 
 /** The unit tangent nearest a direction; any tangent for a direction along the normal. */
-inline Vec3 makeTangent(const Vec3& direction, const Vec3& N) {
-    const Vec3 tangent = direction - direction.dot(N) * N;
+inline Vector3 makeTangent(const Vector3& direction, const Vector3& N) {
+    const Vector3 tangent = direction - direction.dot(N) * N;
     const double square = tangent.squaredNorm();
     if (square <= 1e-24 * direction.squaredNorm()) return N.unitOrthogonal();
     return tangent / std::sqrt(square);  // NaN stays NaN

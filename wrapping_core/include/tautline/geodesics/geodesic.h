@@ -9,21 +9,21 @@ namespace tautline {
 /** A point on a surface. Implicit surfaces use p_S alone; parametric ones keep their coordinates (u, v)
 too, so that charts with seams and several turns stay continuous. */
 struct SurfacePoint {
-    Vec3 p = Vec3::Constant(kNaN);  ///< position in the surface frame S [m]
-    Vec2 uv = Vec2::Zero();         ///< surface coordinates of parametric surfaces
-    int chart = 0;                  ///< which of its charts (u, v) belong to, where a surface has several
+    Vector3 p = Vector3::Constant(kNaN);  ///< position in the surface frame S [m]
+    Vector2 uv = Vector2::Zero();         ///< surface coordinates of parametric surfaces
+    int chart = 0;                        ///< which of its charts (u, v) belong to, where a surface has several
 };
 
 /** What defines a geodesic (thesis Sec. 3.3.3): start point, unit start direction, arc length, in S. */
 struct GeodesicStart {
     SurfacePoint point;
-    Vec3 tangent = Vec3::Constant(kNaN);
+    Vector3 tangent = Vector3::Constant(kNaN);
     double length = 0;  ///< arc length [m]; negative: shot backwards
 };
 
 /** A shot geodesic: its two end trihedra in S and the two scalar Jacobi fields at Q, which solve
 y'' + K y = 0 (thesis Eqn. 4.19, 4.35) from a(0) = 1, a'(0) = 0 and r(0) = 0, r'(0) = 1. */
-struct Geodesic {
+struct ShotGeodesic {
     DarbouxFrame P, Q;  ///< in S
     SurfacePoint endPoint;
     double length = 0;
@@ -36,7 +36,7 @@ struct Geodesic {
 };
 
 /** Accuracy of shooting: local error per step, relative to the surface's size and to unit vectors. */
-struct GeodesicOptions {
+struct ShootingOptions {
     double accuracy = 1e-12;
     int maxSteps = 2000;
 };

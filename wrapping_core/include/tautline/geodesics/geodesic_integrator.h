@@ -28,7 +28,7 @@ and where project() has just been; `double maxKappaN`, the largest since the sta
            number stopped being finite (geodesic.converged = false) */
 template <class Pair, class Equations>
 void integrateGeodesic(Equations& equations, typename Equations::State& y, double length,
-                       const GeodesicOptions& options, Geodesic& geodesic) {
+                       const ShootingOptions& options, ShotGeodesic& geodesic) {
     using State = typename Equations::State;
     constexpr double kSafety = 0.9, kMinFactor = 0.2, kMaxFactor = 5.0;
     constexpr int kA = Equations::n - 4, kR = Equations::n - 2;
@@ -79,7 +79,7 @@ void integrateGeodesic(Equations& equations, typename Equations::State& y, doubl
 /** With the pair that suits the accuracy. */
 template <class Equations>
 void integrateGeodesic(Equations& equations, typename Equations::State& y, double length,
-                       const GeodesicOptions& options, Geodesic& geodesic) {
+                       const ShootingOptions& options, ShotGeodesic& geodesic) {
     constexpr double kLoose = 1e-4;  // from here on, common arcs are one step of either pair
     if (options.accuracy < kLoose)
         integrateGeodesic<DormandPrince853>(equations, y, length, options, geodesic);

@@ -17,9 +17,9 @@ All methods are const and may be called from many threads at once. */
 class MeshDistance {
 public:
     struct Nearest {
-        Vec3 point = Vec3::Constant(kNaN);  ///< of the mesh
-        int triangle = -1;                  ///< -1: none is nearer than asked for
-        double distance = kInfinity;        ///< [m], not negative
+        Vector3 point = Vector3::Constant(kNaN);  ///< of the mesh
+        int triangle = -1;                        ///< -1: none is nearer than asked for
+        double distance = kInfinity;              ///< [m], not negative
     };
 
     /** @param mesh   kept as it is; InvalidInput if requireMesh() refuses it */
@@ -28,25 +28,26 @@ public:
     const TriangleMesh& getMesh() const { return m_mesh; }
 
     /** The nearest point of the mesh. @param within   [m]: what lies farther is not looked for */
-    Nearest findNearest(const Vec3& p, double within = kInfinity) const;
+    Nearest findNearest(const Vector3& p, double within = kInfinity) const;
 
     /** Good to some 1e-2, exact in sign of (number - 1/2) where no hole is near. */
-    double calcWindingNumber(const Vec3& p) const;
+    double calcWindingNumber(const Vector3& p) const;
 
-    bool isInside(const Vec3& p) const { return calcWindingNumber(p) > 0.5; }
+    bool isInside(const Vector3& p) const { return calcWindingNumber(p) > 0.5; }
 
     /** Distance to the nearest point, negative inside [m]. */
-    double calcSignedDistance(const Vec3& p) const {
+    double calcSignedDistance(const Vector3& p) const {
         return isInside(p) ? -findNearest(p).distance : findNearest(p).distance;
     }
 
 private:
     struct Node {
         Eigen::AlignedBox3d box;
-        int first, count;                                 ///< triangles of m_order
-        int children = -1;                                ///< the first of two next to each other; -1: a leaf
-        Vec3 center = Vec3::Zero(), area = Vec3::Zero();  ///< the dipole: mean place [m], sum of area vectors [m^2]
-        double radius = 0;                                ///< about the center [m]
+        int first, count;   ///< triangles of m_order
+        int children = -1;  ///< the first of two next to each other; -1: a leaf
+        Vector3 center = Vector3::Zero(),
+                area = Vector3::Zero();  ///< the dipole: mean place [m], sum of area vectors [m^2]
+        double radius = 0;               ///< about the center [m]
     };
 
     void build(int node);

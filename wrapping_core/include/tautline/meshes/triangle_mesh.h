@@ -9,10 +9,10 @@
 namespace tautline {
 
 struct TriangleMesh {
-    std::vector<Vec3> points;                   ///< [m], in the mesh's own frame
+    std::vector<Vector3> points;                ///< [m], in the mesh's own frame
     std::vector<std::array<int, 3>> triangles;  ///< indices of points, counterclockwise seen from outside
 
-    const Vec3& getCorner(int triangle, int corner) const {
+    const Vector3& getCorner(int triangle, int corner) const {
         return points[static_cast<std::size_t>(triangles[static_cast<std::size_t>(triangle)][corner])];
     }
     int countTriangles() const { return static_cast<int>(triangles.size()); }
@@ -23,7 +23,7 @@ number of point or triangle, counted from 0). */
 void requireMesh(const TriangleMesh& mesh);
 
 /** Twice the area of a triangle along its normal [m^2]. */
-Vec3 calcDoubleArea(const TriangleMesh& mesh, int triangle);
+Vector3 calcDoubleArea(const TriangleMesh& mesh, int triangle);
 
 /** Area [m^2], and volume [m^3] by the divergence theorem: exact for a closed mesh, positive if it faces outward. */
 double calcArea(const TriangleMesh& mesh);

@@ -21,6 +21,6 @@ void calcUnitForces(const PathSolution& path, const PathPose& pose, std::vector<
 /** Points of the path for drawing, in ground: ends of straight segments and, on each arc, points no farther
 apart than `maxAngle` [rad] of turning. @throws InvalidInput unless maxAngle > 0 */
 void calcDrawingPoints(const PathSolution& path, const PathProblem& problem, const PathPose& pose, double maxAngle,
-                       std::vector<Vec3>& points_G);
+                       std::vector<Vector3>& points_G);
 
 }  // namespace tautline

@@ -13,12 +13,12 @@ namespace tautline {
 Its frame E is posed in ground by the caller; a point sits at E's origin, a surface frame S is E. */
 struct PathElement {
     std::string name;
-    std::shared_ptr<const Surface> surface;  ///< null: a point
-    StartHint hint;                          ///< how the path is asked to run about it
-    Vec3 side_S = Vec3::Constant(kNaN);      ///< of PassNear and PassOnSide: the side asked for, a unit vector
-    bool isAskedThroughHole = false;         ///< by PassNear: the point lies in the hole of the surface
-    bool hasHole = false;                    ///< of the surface (Surface::getHole())
-    bool isEndless = false;                  ///< the z axis of S never leaves the body: sides are homotopy classes
+    std::shared_ptr<const Surface> surface;    ///< null: a point
+    StartHint hint;                            ///< how the path is asked to run about it
+    Vector3 side_S = Vector3::Constant(kNaN);  ///< of PassNear and PassOnSide: the side asked for, a unit vector
+    bool isAskedThroughHole = false;           ///< by PassNear: the point lies in the hole of the surface
+    bool hasHole = false;                      ///< of the surface (Surface::getHole())
+    bool isEndless = false;                    ///< the z axis of S never leaves the body: sides are homotopy classes
     bool isPoint() const { return surface == nullptr; }
 };
 
@@ -31,12 +31,12 @@ public:
     int addObstacle(std::string name, std::shared_ptr<const Surface> surface, const StartHint& hint = {});
 
     /** As above. @param hint_S   a point near which the path shall run; none: nothing is known */
-    int addObstacle(std::string name, std::shared_ptr<const Surface> surface, std::optional<Vec3> hint_S);
+    int addObstacle(std::string name, std::shared_ptr<const Surface> surface, std::optional<Vector3> hint_S);
 
     /** InvalidInput if a number of the hint is not finite, a direction has no length, or the surface has no hole
     to thread. */
     void setHint(int element, const StartHint& hint);
-    void setHint(int element, std::optional<Vec3> hint_S);
+    void setHint(int element, std::optional<Vector3> hint_S);
 
     /** InvalidInput unless the path begins and ends with a point. */
     void validate() const;

@@ -14,9 +14,9 @@ element in each list, zero where it is not touched. Of an obstacle with several 
 Q where the last one ends. */
 struct PathVariation {
     double lengthRate = 0;                ///< dL/dt [m/s]
-    std::vector<Vec4> xiRate;             ///< of the first arc's natural corrections (s, beta, theta, l), in m/s but
+    std::vector<Vector4> xiRate;          ///< of the first arc's natural corrections (s, beta, theta, l), in m/s but
                                           ///< the third, in rad/s
-    std::vector<Vec3> PRate, QRate;       ///< velocities of the contact points in ground [m/s]
+    std::vector<Vector3> PRate, QRate;    ///< velocities of the contact points in ground [m/s]
     std::vector<SpatialForce> forceRate;  ///< of the unit force [1/s] and its moment about the moving origin [m/s]
 };
 

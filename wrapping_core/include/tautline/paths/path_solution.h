@@ -23,11 +23,11 @@ const char* getName(PathStatus status);
 
 /** How a path goes through an obstacle's hole, between the fixed points or touched obstacles beside it. */
 struct HolePassage {
-    int count = 0;                  ///< along the hole's axis less against it
-    int from = -1, to = -1;         ///< elements beside: where this portion of the path begins and ends
-    Vec3 A_S = Vec3::Zero();        ///< where it begins
-    Vec3 B_S = Vec3::Zero();        ///< where it ends
-    Vec3 through_S = Vec3::Zero();  ///< where it last went through, if it does
+    int count = 0;                        ///< along the hole's axis less against it
+    int from = -1, to = -1;               ///< elements beside: where this portion of the path begins and ends
+    Vector3 A_S = Vector3::Zero();        ///< where it begins
+    Vector3 B_S = Vector3::Zero();        ///< where it ends
+    Vector3 through_S = Vector3::Zero();  ///< where it last went through, if it does
 
     bool isKnown() const { return from >= 0; }
 };
@@ -35,14 +35,14 @@ struct HolePassage {
 /** Where an arc was shot, and how: as long as its start stays, it need not be shot again. */
 struct ArcShot {
     std::uint64_t surface = 0;  ///< Surface::getId(); 0: none
-    double accuracy = kNaN;     ///< GeodesicOptions::accuracy
+    double accuracy = kNaN;     ///< ShootingOptions::accuracy
 };
 
 /** Where a path lies on a surface, from one straight segment to the next. */
 struct ContactArc {
-    GeodesicStart start;  ///< in S
-    Geodesic geodesic;    ///< in S; of a solved path
-    ArcShot shot;         ///< that `geodesic` came from
+    GeodesicStart start;    ///< in S
+    ShotGeodesic geodesic;  ///< in S; of a solved path
+    ArcShot shot;           ///< that `geodesic` came from
 };
 
 /** What one obstacle does in a solved path. While it is touched the path lies on it in one arc or, where it bridges a
@@ -76,9 +76,9 @@ obstacle at both ends. */
 struct StraightSegment {
     int fromElement = -1, toElement = -1;
     int fromArc = 0, toArc = 0;  ///< which arc of an obstacle it leaves and comes to
-    Vec3 A = Vec3::Constant(kNaN), B = Vec3::Constant(kNaN);
-    Vec3 e = Vec3::Constant(kNaN);  ///< unit vector from A to B
-    double length = kNaN;           ///< [m]
+    Vector3 A = Vector3::Constant(kNaN), B = Vector3::Constant(kNaN);
+    Vector3 e = Vector3::Constant(kNaN);  ///< unit vector from A to B
+    double length = kNaN;                 ///< [m]
 };
 
 /** Why a string that has fallen taut is not one smooth path. */

@@ -43,7 +43,7 @@ private:
 
     Workspace& updWorkspace();
     bool begin(const PathProblem& problem, const PathPose& pose, PathSolution& path) const;
-    static Vec3 chooseOrigin(const PathPose& pose);
+    static Vector3 chooseOrigin(const PathPose& pose);
     const PathPose& calcWorkingPose(const PathProblem& problem, const PathPose& pose);
     void moveToGround(PathSolution& path) const;
     bool findKeptPath(const PathProblem& problem, const PathPose& pose, PathSolution& path);

@@ -12,7 +12,7 @@ struct PathSolverOptions {
     PathSolution::dependsOnHistory() is exact then. Without it a rule tells, which costs next to nothing and misses a
     few of the paths between several bodies, or with several minima near each other. Needs allowsColdStart. */
     bool comparesWithCold = false;
-    GeodesicOptions geodesics;
+    ShootingOptions geodesics;
 
     /** These options for a solve that only continues the path it is given and finds nothing anew. */
     PathSolverOptions withoutSearch() const;

@@ -20,10 +20,10 @@ struct PathVerification {
         OutsideDomain,    ///< an arc leaves the domain of its surface
     };
     Condition condition = Condition::None;
-    int element = -1;                     ///< the obstacle concerned
-    Vec3 place_G = Vec3::Constant(kNaN);  ///< where on the path, in ground [m]
-    int arc = 0;                          ///< which of its arcs
-    int segment = -1;                     ///< of a penetration: index of the straight segment
+    int element = -1;                           ///< the obstacle concerned
+    Vector3 place_G = Vector3::Constant(kNaN);  ///< where on the path, in ground [m]
+    int arc = 0;                                ///< which of its arcs
+    int segment = -1;                           ///< of a penetration: index of the straight segment
 
     bool isMinimum() const { return condition == Condition::None; }
 };

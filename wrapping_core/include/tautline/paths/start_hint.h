@@ -12,12 +12,12 @@ namespace tautline {
 /** The path runs near this point: on the side of the surface where its foot is, or, if the point lies in the surface's
 hole, through that, either way. */
 struct PassNear {
-    Vec3 point_S;
+    Vector3 point_S;
 };
 
 /** The path runs where direction_S . p_S >= 0, as the quadrants of musculoskeletal models say. */
 struct PassOnSide {
-    Vec3 direction_S;
+    Vector3 direction_S;
 };
 
 /** The path turns about the z axis of S, positive from x to y, by the angle nearest to `turns` full turns that

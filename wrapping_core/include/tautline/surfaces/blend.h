@@ -38,7 +38,7 @@ public:
     /** That of the smallest part. */
     double getSize() const override { return m_size; }
     std::string getDescription() const override;
-    ImplicitValue calcImplicit(const Vec3& p_S) const;
+    ImplicitValue calcImplicit(const Vector3& p_S) const;
 
 private:
     std::vector<BlendPart> m_parts;

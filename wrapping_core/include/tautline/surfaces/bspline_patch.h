@@ -34,7 +34,7 @@ public:
     int getNumV() const { return m_numV; }
     const Eigen::Matrix3Xd& getControlPoints() const { return m_controlPoints; }
     std::string getDescription() const override;
-    void calcPartials(const Vec2& uv, PatchPartials& partials) const;
+    void calcPartials(const Vector2& uv, PatchPartials& partials) const;
 
     /** The four B-splines that live on the cell of a coordinate, with their first and second derivatives. */
     struct Basis {

@@ -15,13 +15,13 @@ struct SolidGrid {
     static constexpr int kBrickControls = kControls * kControls * kControls;
     static constexpr std::int32_t kOutside = -1, kInside = -2;
 
-    Vec3 origin = Vec3::Zero();        ///< lowest corner of the first brick, in S [m]
+    Vector3 origin = Vector3::Zero();  ///< lowest corner of the first brick, in S [m]
     double spacing = kNaN;             ///< of the fine lattice [m]
     std::array<int, 3> numBricks{};    ///< along the axes
     std::vector<std::int32_t> bricks;  ///< which control values a brick has; kOutside, kInside: none, it is far away
     std::vector<float> controls;       ///< signed heights [m], kBrickControls for each brick that has some
 
-    Vec3 farOrigin = Vec3::Zero();        ///< lowest corner of the coarse cells, in S [m]
+    Vector3 farOrigin = Vector3::Zero();  ///< lowest corner of the coarse cells, in S [m]
     double farSpacing = kNaN;             ///< [m]
     std::array<int, 3> numFarControls{};  ///< three more than cells
     std::vector<float> farControls;       ///< distances without sign [m]
@@ -57,18 +57,18 @@ public:
     /** The box outside which nothing of the solid is, in S. */
     Eigen::AlignedBox3d calcBox() const;
 
-    ImplicitValue calcImplicit(const Vec3& p) const;
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
+    ImplicitValue calcImplicit(const Vector3& p) const;
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override;
 
 private:
     template <int kOrder>
-    void calcFunction(const Vec3& p, ImplicitValue& value) const;
+    void calcFunction(const Vector3& p, ImplicitValue& value) const;
     template <int kOrder>
-    void calcNear(const float* controls, const Vec3& inBrick, ImplicitValue& value) const;
+    void calcNear(const float* controls, const Vector3& inBrick, ImplicitValue& value) const;
     template <int kOrder>
-    void calcFar(const Vec3& p, ImplicitValue& value) const;
+    void calcFar(const Vector3& p, ImplicitValue& value) const;
     /** Number of the brick's control values, kOutside or kInside. @param place   in fine cells, from the origin */
-    std::int32_t findBrick(const Vec3& place, Vec3& inBrick) const;
+    std::int32_t findBrick(const Vector3& place, Vector3& inBrick) const;
 
     SolidGrid m_grid;
     double m_inverseSpacing = kNaN, m_inverseFarSpacing = kNaN;

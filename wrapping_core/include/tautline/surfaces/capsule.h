@@ -31,15 +31,15 @@ public:
 
     /** From farther away than the size first straight towards the axis: Newton's method on the fourth power would
     take long. */
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
+    SurfacePoint findSurfacePoint(const Vector3& p_S) const override;
 
     /** f = r/2 (rho^2/r^2 + (w/c)^4 - 1), convex. */
-    DiagonalImplicitValue calcImplicit(const Vec3& p) const {
+    DiagonalImplicitValue calcImplicit(const Vector3& p) const {
         const double w = std::max(std::abs(p.z()) - 0.5 * m_length, 0.0) / m_capHeight;
         const double k = m_radius / m_capHeight, side = p.z() < 0 ? -1 : 1;
         return {0.5 * ((p.x() * p.x() + p.y() * p.y()) / m_radius + m_radius * (w * w * w * w - 1)),
                 {p.x() / m_radius, p.y() / m_radius, 2 * side * k * w * w * w},
-                Vec3(1 / m_radius, 1 / m_radius, 6 * k / m_capHeight * w * w)};
+                Vector3(1 / m_radius, 1 / m_radius, 6 * k / m_capHeight * w * w)};
     }
 
 private:
@@ -57,9 +57,9 @@ public:
         : ParametricTwin(Capsule(radius, length, capHeight)) {}
     ParametricCapsule(double radius, double length) : ParametricCapsule(radius, length, radius) {}
 
-    ParametricValue calcParametric(const Vec2& uv, int chart) const;
-    Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const;
-    int chooseChart(const Vec3& p_S, const Vec3& t_S, int current) const;
+    ParametricValue calcParametric(const Vector2& uv, int chart) const;
+    Vector2 calcNearbyParameters(const Vector3& p_S, int chart) const;
+    int chooseChart(const Vector3& p_S, const Vector3& t_S, int current) const;
 };
 
 extern template class ParametricShape<ParametricCapsule>;

@@ -22,19 +22,21 @@ public:
 
     /** f = rho cos(alpha) - z sin(alpha), rho the distance from the axis: the distance itself where the foot is
     on the cone, positive below the apex. On the axis the gradient is that of a point beside it. */
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    ImplicitValue calcImplicit(const Vector3& p) const {
         const double tiny = 1e-12 * m_radius, rhoTrue = std::sqrt(p.x() * p.x() + p.y() * p.y());
-        const Vec3 radial = rhoTrue > tiny ? Vec3(p.x() / rhoTrue, p.y() / rhoTrue, 0) : Vec3(Vec3::UnitX());
+        const Vector3 radial =
+            rhoTrue > tiny ? Vector3(p.x() / rhoTrue, p.y() / rhoTrue, 0) : Vector3(Vector3::UnitX());
         const double h = m_cosine / std::max(rhoTrue, tiny);
         const double xx = radial.x() * radial.x(), xy = radial.x() * radial.y(), yy = radial.y() * radial.y();
         ImplicitValue value;
         value.f = rhoTrue * m_cosine - p.z() * m_sine;
-        value.gradient = Vec3(m_cosine * radial.x(), m_cosine * radial.y(), -m_sine);
+        value.gradient = Vector3(m_cosine * radial.x(), m_cosine * radial.y(), -m_sine);
         value.hessian << h * yy, -h * xy, 0, -h * xy, h * xx, 0, 0, 0, 0;
         return value;
     }
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
+    SurfacePoint findSurfacePoint(const Vector3& p_S) const override;
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                       ShotGeodesic& geodesic) const override;
 
 private:
     double m_halfAngle, m_radius, m_edgeRadius, m_sine, m_cosine;
@@ -51,12 +53,12 @@ public:
           m_cosine(std::cos(halfAngle)) {}
 
     double getNormalSign() const { return 1; }
-    ParametricValue calcParametric(const Vec2& uv, int) const {
+    ParametricValue calcParametric(const Vector2& uv, int) const {
         const double c = m_sine * std::cos(uv[0]), s = m_sine * std::sin(uv[0]), v = uv[1];
         return {{v * c, v * s, v * m_cosine}, {-v * s, v * c, 0}, {c, s, m_cosine},
-                {-v * c, -v * s, 0},          {-s, c, 0},         Vec3::Zero()};
+                {-v * c, -v * s, 0},          {-s, c, 0},         Vector3::Zero()};
     }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
+    Vector2 calcNearbyParameters(const Vector3& p_S, int) const {
         return {std::atan2(p_S.y(), p_S.x()), p_S.head<2>().norm() * m_sine + p_S.z() * m_cosine};
     }
 

@@ -15,19 +15,20 @@ public:
     double getSize() const override { return m_radius; }
     std::string getDescription() const override;
     bool isConvex() const override { return true; }
-    double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
+    double findLowestPoint(const Vector3& A_S, const Vector3& e_S, double length) const override;
 
     /** f = (x^2 + y^2 - r^2)/(2r), so that the gradient is unit on the surface. */
-    DiagonalImplicitValue calcImplicit(const Vec3& p) const {
-        const Vec3 hessian(1 / m_radius, 1 / m_radius, 0);
+    DiagonalImplicitValue calcImplicit(const Vector3& p) const {
+        const Vector3 hessian(1 / m_radius, 1 / m_radius, 0);
         return {(p.x() * p.x() + p.y() * p.y() - m_radius * m_radius) / (2 * m_radius), hessian.cwiseProduct(p),
                 hessian};
     }
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
-    DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override;
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
-    void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const override;
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override;
+    SurfacePoint findSurfacePoint(const Vector3& p_S) const override;
+    DarbouxFrame calcFrame(const SurfacePoint& point, const Vector3& direction_S) const override;
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                       ShotGeodesic& geodesic) const override;
+    void findLineClearance(const Vector3& A_S, const Vector3& e_S, LineClearance& clearance) const override;
 
 private:
     double m_radius;
@@ -43,17 +44,18 @@ public:
     explicit ParametricCylinder(double radius) : ParametricTwin(Cylinder(radius)) {}
 
     double getRadius() const { return getTwin().getRadius(); }
-    ParametricValue calcParametric(const Vec2& uv, int) const {
+    ParametricValue calcParametric(const Vector2& uv, int) const {
         const double c = getRadius() * std::cos(uv[0]), s = getRadius() * std::sin(uv[0]);
-        return {{c, s, uv[1]}, {-s, c, 0}, Vec3::UnitZ(), {-c, -s, 0}, Vec3::Zero(), Vec3::Zero()};
+        return {{c, s, uv[1]}, {-s, c, 0}, Vector3::UnitZ(), {-c, -s, 0}, Vector3::Zero(), Vector3::Zero()};
     }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int) const { return {std::atan2(p_S.y(), p_S.x()), p_S.z()}; }
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
+    Vector2 calcNearbyParameters(const Vector3& p_S, int) const { return {std::atan2(p_S.y(), p_S.x()), p_S.z()}; }
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                       ShotGeodesic& geodesic) const override {
         GeodesicStart from = start;
         if (!from.point.p.allFinite()) from.point = resolve(start.point);  // given by (u, v) alone
         getTwin().shootGeodesic(from, options, geodesic);
         const double hoop = geodesic.P.t.y() * geodesic.P.N.x() - geodesic.P.t.x() * geodesic.P.N.y();
-        geodesic.endPoint.uv = from.point.uv + start.length * Vec2(hoop / getRadius(), geodesic.P.t.z());
+        geodesic.endPoint.uv = from.point.uv + start.length * Vector2(hoop / getRadius(), geodesic.P.t.z());
     }
 };
 

@@ -10,13 +10,13 @@ namespace tautline {
 class Ellipsoid final : public CentralQuadric<Ellipsoid> {
 public:
     /** @param semiAxes   [m], each positive; InvalidInput otherwise */
-    explicit Ellipsoid(const Vec3& semiAxes);
+    explicit Ellipsoid(const Vector3& semiAxes);
 
-    const Vec3& getSemiAxes() const { return m_semiAxes; }
+    const Vector3& getSemiAxes() const { return m_semiAxes; }
     std::string getDescription() const override;
 
 private:
-    Vec3 m_semiAxes;
+    Vector3 m_semiAxes;
 };
 
 extern template class ImplicitShape<Ellipsoid>;
@@ -25,12 +25,14 @@ extern template class ImplicitShape<Ellipsoid>;
 class ParametricEllipsoid final : public ParametricTwin<ParametricEllipsoid, Ellipsoid> {
 public:
     /** @param semiAxes   [m], each positive; InvalidInput otherwise */
-    explicit ParametricEllipsoid(const Vec3& semiAxes) : ParametricTwin(Ellipsoid(semiAxes)), m_charts(semiAxes) {}
+    explicit ParametricEllipsoid(const Vector3& semiAxes) : ParametricTwin(Ellipsoid(semiAxes)), m_charts(semiAxes) {}
 
-    ParametricValue calcParametric(const Vec2& uv, int chart) const { return m_charts.calcParametric(uv, chart); }
-    ParametricValue calcTurned(const Vec2& uv, int chart) const { return m_charts.calcTurned(uv, chart); }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const { return m_charts.calcNearbyParameters(p_S, chart); }
-    int chooseChart(const Vec3& p_S, const Vec3& t_S, int current) const {
+    ParametricValue calcParametric(const Vector2& uv, int chart) const { return m_charts.calcParametric(uv, chart); }
+    ParametricValue calcTurned(const Vector2& uv, int chart) const { return m_charts.calcTurned(uv, chart); }
+    Vector2 calcNearbyParameters(const Vector3& p_S, int chart) const {
+        return m_charts.calcNearbyParameters(p_S, chart);
+    }
+    int chooseChart(const Vector3& p_S, const Vector3& t_S, int current) const {
         return m_charts.chooseChart(p_S, t_S, current);
     }
 

@@ -11,11 +11,11 @@ public:
     /** @param semiAxisX, semiAxisY   of the section [m], positive; InvalidInput otherwise */
     EllipticCylinder(double semiAxisX, double semiAxisY);
 
-    const Vec2& getSemiAxes() const { return m_semiAxes; }
+    const Vector2& getSemiAxes() const { return m_semiAxes; }
     std::string getDescription() const override;
 
 private:
-    Vec2 m_semiAxes;
+    Vector2 m_semiAxes;
 };
 
 extern template class ImplicitShape<EllipticCylinder>;
@@ -26,13 +26,13 @@ public:
     ParametricEllipticCylinder(double semiAxisX, double semiAxisY)
         : ParametricTwin(EllipticCylinder(semiAxisX, semiAxisY)) {}
 
-    ParametricValue calcParametric(const Vec2& uv, int) const {
+    ParametricValue calcParametric(const Vector2& uv, int) const {
         const double a = getTwin().getSemiAxes()[0], b = getTwin().getSemiAxes()[1], c = std::cos(uv[0]),
                      s = std::sin(uv[0]);
-        return {{a * c, b * s, uv[1]}, {-a * s, b * c, 0}, Vec3::UnitZ(),
-                {-a * c, -b * s, 0},   Vec3::Zero(),       Vec3::Zero()};
+        return {{a * c, b * s, uv[1]}, {-a * s, b * c, 0}, Vector3::UnitZ(),
+                {-a * c, -b * s, 0},   Vector3::Zero(),    Vector3::Zero()};
     }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
+    Vector2 calcNearbyParameters(const Vector3& p_S, int) const {
         return {std::atan2(p_S.y() / getTwin().getSemiAxes()[1], p_S.x() / getTwin().getSemiAxes()[0]), p_S.z()};
     }
 };

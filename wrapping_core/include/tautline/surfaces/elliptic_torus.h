@@ -23,7 +23,7 @@ public:
 
     std::optional<Hole> getHole() const override { return Hole(m_ringRadius); }
 
-    ImplicitValue calcImplicit(const Vec3& p) const { return calcTorusForm(p, m_ringRadius, m_radial, m_axial); }
+    ImplicitValue calcImplicit(const Vector3& p) const { return calcTorusForm(p, m_ringRadius, m_radial, m_axial); }
 
 private:
     double m_ringRadius, m_radial, m_axial, m_size;
@@ -39,11 +39,11 @@ public:
     ParametricEllipticTorus(double ringRadius, double radialSemiAxis, double axialSemiAxis)
         : ParametricTwin(EllipticTorus(ringRadius, radialSemiAxis, axialSemiAxis)) {}
 
-    ParametricValue calcParametric(const Vec2& uv, int) const {
+    ParametricValue calcParametric(const Vector2& uv, int) const {
         return calcTorusPoint(uv, getTwin().getRingRadius(), getTwin().getRadialSemiAxis(),
                               getTwin().getAxialSemiAxis());
     }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
+    Vector2 calcNearbyParameters(const Vector3& p_S, int) const {
         return calcTorusParameters(p_S, getTwin().getRingRadius(), getTwin().getRadialSemiAxis(),
                                    getTwin().getAxialSemiAxis());
     }

@@ -16,10 +16,10 @@ smooth on the scale of the size, at 19 evaluations for a gradient, 55 for gradie
 derives exact ones from one formula. */
 class ImplicitFunctionSurface final : public ImplicitShape<ImplicitFunctionSurface> {
 public:
-    using ValueFunction = std::function<double(const Vec3& p_S)>;
-    using GradientFunction = std::function<Vec3(const Vec3& p_S)>;
-    using HessianFunction = std::function<Mat3(const Vec3& p_S)>;
-    using FullFunction = std::function<ImplicitValue(const Vec3& p_S)>;
+    using ValueFunction = std::function<double(const Vector3& p_S)>;
+    using GradientFunction = std::function<Vector3(const Vector3& p_S)>;
+    using HessianFunction = std::function<Matrix3(const Vector3& p_S)>;
+    using FullFunction = std::function<ImplicitValue(const Vector3& p_S)>;
 
     /** @param description   for messages
     @param size          characteristic length [m], positive; InvalidInput otherwise, or if `value` is empty
@@ -38,12 +38,12 @@ public:
         return *this;
     }
     /** Without the Hessian, if that has to come from differences. */
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
-    ImplicitValue calcImplicit(const Vec3& p) const;
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override;
+    ImplicitValue calcImplicit(const Vector3& p) const;
 
 private:
-    Vec3 calcGradient(const Vec3& p) const;
-    Mat3 calcHessian(const Vec3& p, double f) const;
+    Vector3 calcGradient(const Vector3& p) const;
+    Matrix3 calcHessian(const Vector3& p, double f) const;
 
     std::string m_description;
     double m_size;
@@ -62,20 +62,21 @@ extern template class ImplicitShape<ImplicitFunctionSurface>;
 template <class Formula>
 ImplicitFunctionSurface makeImplicitSurface(std::string description, double size, Formula formula) {
     using Number = SecondOrder<3>;
-    return ImplicitFunctionSurface(
-        std::move(description), size, ImplicitFunctionSurface::FullFunction([formula](const Vec3& p) -> ImplicitValue {
-            const Number f =
-                formula(Number::makeVariable(p.x(), 0), Number::makeVariable(p.y(), 1), Number::makeVariable(p.z(), 2));
-            return {f.value, f.gradient, f.hessian};
-        }));
+    return ImplicitFunctionSurface(std::move(description), size,
+                                   ImplicitFunctionSurface::FullFunction([formula](const Vector3& p) -> ImplicitValue {
+                                       const Number f =
+                                           formula(Number::makeVariable(p.x(), 0), Number::makeVariable(p.y(), 1),
+                                                   Number::makeVariable(p.z(), 2));
+                                       return {f.value, f.gradient, f.hessian};
+                                   }));
 }
 
 /** x(u, v) over a rectangle from functions. From the position alone, derivatives come from central differences of sixth
 order with steps of 0.5% of the domain (first) and 1% (second), so x must be defined a little beyond it. */
 class ParametricFunctionSurface final : public ParametricShape<ParametricFunctionSurface> {
 public:
-    using PositionFunction = std::function<Vec3(const Vec2& uv)>;
-    using FullFunction = std::function<ParametricValue(const Vec2& uv)>;
+    using PositionFunction = std::function<Vector3(const Vector2& uv)>;
+    using FullFunction = std::function<ParametricValue(const Vector2& uv)>;
 
     /** @param size         characteristic length [m], positive; InvalidInput otherwise
     @param domain       finite and not empty
@@ -90,8 +91,8 @@ public:
     double getNormalSign() const { return m_normalSign; }
     const ParameterDomain& getDomain() const { return m_domain; }
     double calcDomainMargin(const SurfacePoint& point) const override { return m_domain.calcMargin(resolve(point).uv); }
-    ParametricValue calcParametric(const Vec2& uv, int) const { return m_full(uv); }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int) const { return m_grid.findNearest(p_S); }
+    ParametricValue calcParametric(const Vector2& uv, int) const { return m_full(uv); }
+    Vector2 calcNearbyParameters(const Vector3& p_S, int) const { return m_grid.findNearest(p_S); }
 
 private:
     std::string m_description;
@@ -109,7 +110,7 @@ template <class Formula>
 ParametricFunctionSurface makeParametricSurface(std::string description, double size, const ParameterDomain& domain,
                                                 Formula formula, double normalSign = 1) {
     using Number = SecondOrder<2>;
-    const auto full = [formula](const Vec2& uv) {
+    const auto full = [formula](const Vector2& uv) {
         const std::array<Number, 3> x = formula(Number::makeVariable(uv[0], 0), Number::makeVariable(uv[1], 1));
         ParametricValue s;
         for (int i = 0; i < 3; ++i) {

@@ -11,40 +11,40 @@ inside the tube. */
 class Hole {
 public:
     /** Spanned by the disc rho < radius in the plane z = 0. */
-    explicit Hole(double radius) : m_toUnitDisc(Mat3::Identity() / radius) {}
+    explicit Hole(double radius) : m_toUnitDisc(Matrix3::Identity() / radius) {}
 
     /** The hole of the surface under the linear map whose inverse is given. */
-    Hole mappedBy(const Mat3& inverse) const { return Hole(Mat3(m_toUnitDisc * inverse)); }
+    Hole mappedBy(const Matrix3& inverse) const { return Hole(Matrix3(m_toUnitDisc * inverse)); }
 
     /** Unit normal of the disc. */
-    Vec3 getAxis() const { return m_toUnitDisc.row(2).transpose().normalized(); }
+    Vector3 getAxis() const { return m_toUnitDisc.row(2).transpose().normalized(); }
 
     /** How often the segment A B passes the hole: 1 along the axis, -1 against it, else 0. */
-    int countCrossings(const Vec3& A_S, const Vec3& B_S) const {
-        const Vec3 a = m_toUnitDisc * A_S, b = m_toUnitDisc * B_S;
+    int countCrossings(const Vector3& A_S, const Vector3& B_S) const {
+        const Vector3 a = m_toUnitDisc * A_S, b = m_toUnitDisc * B_S;
         const bool isAbove = a.z() > 0;
         if (isAbove == (b.z() > 0)) return 0;
-        const Vec3 crossing = a + a.z() / (a.z() - b.z()) * (b - a);
+        const Vector3 crossing = a + a.z() / (a.z() - b.z()) * (b - a);
         if (!(crossing.head<2>().squaredNorm() < 1)) return 0;
         return isAbove ? -1 : 1;
     }
 
     /** Whether a point lies over or under the disc, by less than half of its radius. */
-    bool isBeside(const Vec3& p_S) const {
-        const Vec3 p = m_toUnitDisc * p_S;
+    bool isBeside(const Vector3& p_S) const {
+        const Vector3 p = m_toUnitDisc * p_S;
         return p.head<2>().squaredNorm() < 1 && std::abs(p.z()) < 0.5;
     }
 
     /** Where the straight line through A and B meets the plane of the disc; not finite if it runs along that. */
-    Vec3 calcPlaneCrossing(const Vec3& A_S, const Vec3& B_S) const {
-        const Vec3 axis = getAxis(), step = B_S - A_S;
+    Vector3 calcPlaneCrossing(const Vector3& A_S, const Vector3& B_S) const {
+        const Vector3 axis = getAxis(), step = B_S - A_S;
         return A_S - axis.dot(A_S) / axis.dot(step) * step;
     }
 
 private:
-    explicit Hole(const Mat3& toUnitDisc) : m_toUnitDisc(toUnitDisc) {}
+    explicit Hole(const Matrix3& toUnitDisc) : m_toUnitDisc(toUnitDisc) {}
 
-    Mat3 m_toUnitDisc;  ///< to coordinates in which the disc is rho < 1 in the plane z = 0
+    Matrix3 m_toUnitDisc;  ///< to coordinates in which the disc is rho < 1 in the plane z = 0
 };
 
 }  // namespace tautline

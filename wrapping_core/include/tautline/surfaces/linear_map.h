@@ -21,34 +21,34 @@ public:
             setMatrix(matrixOrFactors);
     }
 
-    const Mat3& getMatrix() const { return m_matrix; }
-    const Mat3& getInverse() const { return m_inverse; }
+    const Matrix3& getMatrix() const { return m_matrix; }
+    const Matrix3& getInverse() const { return m_inverse; }
     /** Least singular value: the factor along the direction that is stretched least. */
     double getLeastFactor() const { return m_leastFactor; }
     std::string getDescription() const;
 
     // Products are written out: Eigen's are calls at -O2, and geodesics make many.
-    Vec3 map(const Vec3& q) const { return multiply(m_matrix, q); }
-    Vec3 mapBack(const Vec3& p) const { return multiply(m_inverse, p); }
+    Vector3 map(const Vector3& q) const { return multiply(m_matrix, q); }
+    Vector3 mapBack(const Vector3& p) const { return multiply(m_inverse, p); }
     /** M^-T v: what a gradient becomes. */
-    Vec3 mapGradient(const Vec3& v) const {
+    Vector3 mapGradient(const Vector3& v) const {
         return {m_inverse.col(0).dot(v), m_inverse.col(1).dot(v), m_inverse.col(2).dot(v)};
     }
     /** M^-T H M^-1: what a Hessian becomes. */
-    Mat3 mapHessian(const Mat3& H) const {
-        Mat3 mapped;
+    Matrix3 mapHessian(const Matrix3& H) const {
+        Matrix3 mapped;
         for (int j = 0; j < 3; ++j) mapped.col(j) = mapGradient(multiply(H, m_inverse.col(j)));
         return mapped;
     }
 
 private:
-    static Vec3 multiply(const Mat3& A, const Vec3& v) {
+    static Vector3 multiply(const Matrix3& A, const Vector3& v) {
         return v.x() * A.col(0) + v.y() * A.col(1) + v.z() * A.col(2);
     }
-    void setMatrix(const Mat3& M);
-    void setFactors(const Vec3& factors);
+    void setMatrix(const Matrix3& M);
+    void setFactors(const Vector3& factors);
 
-    Mat3 m_matrix, m_inverse;
+    Matrix3 m_matrix, m_inverse;
     double m_leastFactor = 0;
 };
 

@@ -25,18 +25,20 @@ public:
     double getSize() const override { return getBase().getSize() + m_thickness; }
     std::string getDescription() const override;
     double calcDomainMargin(const SurfacePoint& point) const override;
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override;
     /** With the (u, v) of its foot, if the base has such. */
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
-    SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vec3& displacement_S) const override;
-    DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override;
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
+    SurfacePoint findSurfacePoint(const Vector3& p_S) const override;
+    SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vector3& displacement_S) const override;
+    DarbouxFrame calcFrame(const SurfacePoint& point, const Vector3& direction_S) const override;
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                       ShotGeodesic& geodesic) const override;
 
-    ImplicitValue calcImplicit(const Vec3& p) const;
+    ImplicitValue calcImplicit(const Vector3& p) const;
 
 private:
     /** Foot of a point of this surface, and the base's frame there with t along `direction`. */
-    bool findFootOfPoint(const SurfacePoint& point, const Vec3& direction, SurfacePoint& C, DarbouxFrame& frame) const;
+    bool findFootOfPoint(const SurfacePoint& point, const Vector3& direction, SurfacePoint& C,
+                         DarbouxFrame& frame) const;
 
     double m_thickness;
     bool m_hasCoordinates;

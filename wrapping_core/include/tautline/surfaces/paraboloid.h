@@ -17,13 +17,13 @@ public:
     double getSize() const override { return 0.5 * std::min(m_A, m_B); }
     std::string getDescription() const override;
     bool isConvex() const override { return true; }
-    double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
+    double findLowestPoint(const Vector3& A_S, const Vector3& e_S, double length) const override;
 
     /** f = x^2/A + y^2/B - z: the gradient is nowhere less than 1. */
-    DiagonalImplicitValue calcImplicit(const Vec3& p) const {
+    DiagonalImplicitValue calcImplicit(const Vector3& p) const {
         return {p.x() * p.x() / m_A + p.y() * p.y() / m_B - p.z(),
                 {2 * p.x() / m_A, 2 * p.y() / m_B, -1},
-                Vec3(2 / m_A, 2 / m_B, 0)};
+                Vector3(2 / m_A, 2 / m_B, 0)};
     }
 
 private:
@@ -38,16 +38,16 @@ public:
     ParametricParaboloid(double A, double B) : ParametricTwin(Paraboloid(A, B)) {}
 
     double getNormalSign() const { return -1; }  // xu x xv points up, into the bowl
-    ParametricValue calcParametric(const Vec2& uv, int) const {
+    ParametricValue calcParametric(const Vector2& uv, int) const {
         const double A = getTwin().getA(), B = getTwin().getB(), u = uv[0], v = uv[1];
         return {{u, v, u * u / A + v * v / B},
                 {1, 0, 2 * u / A},
                 {0, 1, 2 * v / B},
                 {0, 0, 2 / A},
-                Vec3::Zero(),
+                Vector3::Zero(),
                 {0, 0, 2 / B}};
     }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int) const { return p_S.head<2>(); }
+    Vector2 calcNearbyParameters(const Vector3& p_S, int) const { return p_S.head<2>(); }
 };
 
 extern template class ParametricShape<ParametricParaboloid>;

@@ -12,19 +12,19 @@ namespace tautline {
 
 /** Position of a parametric surface and its partial derivatives at (u, v), in S. */
 struct ParametricValue {
-    Vec3 x, xu, xv, xuu, xuv, xvv;
+    Vector3 x, xu, xv, xuu, xuv, xvv;
 };
 
 /** Rectangle of surface coordinates. */
 struct ParameterDomain {
-    Vec2 min = Vec2::Constant(-kInfinity), max = Vec2::Constant(kInfinity);
+    Vector2 min = Vector2::Constant(-kInfinity), max = Vector2::Constant(kInfinity);
 
-    bool contains(const Vec2& uv) const {
+    bool contains(const Vector2& uv) const {
         return (uv.array() >= min.array()).all() && (uv.array() <= max.array()).all();
     }
     /** Distance from the nearest side, over the domain's width if that is finite; negative outside. Rounding of the
     coordinates is forgiven: 1e-12 of the width beyond a side is still inside. */
-    double calcMargin(const Vec2& uv) const {
+    double calcMargin(const Vector2& uv) const {
         constexpr double kRounding = 1e-12;
         double margin = kInfinity;
         for (int i = 0; i < 2; ++i) {
@@ -34,7 +34,7 @@ struct ParameterDomain {
         }
         return margin;
     }
-    Vec2 clamp(const Vec2& uv) const { return uv.cwiseMax(min).cwiseMin(max); }
+    Vector2 clamp(const Vector2& uv) const { return uv.cwiseMax(min).cwiseMin(max); }
 };
 
 namespace detail {
@@ -46,7 +46,7 @@ struct Metric {
     explicit Metric(const ParametricValue& s) : E(s.xu.squaredNorm()), F(s.xu.dot(s.xv)), G(s.xv.squaredNorm()) {}
     double calcDeterminant() const { return E * G - F * F; }
     /** Rates of (u, v) along a tangent vector: the metric tensor's inverse on its products with xu, xv (Eqn. 4.60). */
-    Vec2 calcRates(const ParametricValue& s, const Vec3& tangent) const {
+    Vector2 calcRates(const ParametricValue& s, const Vector3& tangent) const {
         const double tu = s.xu.dot(tangent), tv = s.xv.dot(tangent), determinant = calcDeterminant();
         return {(G * tu - F * tv) / determinant, (E * tv - F * tu) / determinant};
     }
@@ -54,7 +54,7 @@ struct Metric {
 
 /** Trihedron and curvatures from both fundamental forms (thesis Eqn. 3.22, 3.64, signs of 3.63).
 @param normalSign   +1 if xu x xv points outward, else -1 */
-inline DarbouxFrame calcParametricFrame(const ParametricValue& s, double normalSign, const Vec3& direction) {
+inline DarbouxFrame calcParametricFrame(const ParametricValue& s, double normalSign, const Vector3& direction) {
     DarbouxFrame frame;
     const Metric metric(s);
     frame.x = s.x;
@@ -62,14 +62,14 @@ inline DarbouxFrame calcParametricFrame(const ParametricValue& s, double normalS
     frame.t = makeTangent(direction, frame.N);
     frame.B = frame.t.cross(frame.N);
     const double L = s.xuu.dot(frame.N), M = s.xuv.dot(frame.N), N = s.xvv.dot(frame.N);  // Eqn. 3.23 to 3.25
-    const Vec2 t = metric.calcRates(s, frame.t), B = metric.calcRates(s, frame.B);
+    const Vector2 t = metric.calcRates(s, frame.t), B = metric.calcRates(s, frame.B);
     frame.kappaN = L * t[0] * t[0] + 2 * M * t[0] * t[1] + N * t[1] * t[1];
     frame.tauG = -(L * t[0] * B[0] + M * (t[0] * B[1] + t[1] * B[0]) + N * t[1] * B[1]);
     frame.kappaB = L * B[0] * B[0] + 2 * M * B[0] * B[1] + N * B[1] * B[1];
     return frame;
 }
 
-/** Geodesic and Jacobi equations in surface coordinates (thesis Eqn. 3.46, 3.47, 4.19, 4.35).
+/** ShotGeodesic and Jacobi equations in surface coordinates (thesis Eqn. 3.46, 3.47, 4.19, 4.35).
 State: u, v, u', v', a, a', r, r'. The chart may change between steps, never inside one. */
 template <class ParametricFunction>
 struct ParametricGeodesicEquations {
@@ -84,13 +84,13 @@ struct ParametricGeodesicEquations {
     double maxKappaN = kNaN;
 
     void calcDerivative(const State& y, State& slope) const {
-        const ParametricValue s = surface.calcTurned(Vec2(y[0], y[1]), chart);
+        const ParametricValue s = surface.calcTurned(Vector2(y[0], y[1]), chart);
         const Metric metric(s);
         // x'' = bend + xu u'' + xv v'' is normal to the surface: the Christoffel symbols in one vector.
-        const Vec3 bend = y[2] * y[2] * s.xuu + 2 * y[2] * y[3] * s.xuv + y[3] * y[3] * s.xvv;
+        const Vector3 bend = y[2] * y[2] * s.xuu + 2 * y[2] * y[3] * s.xuv + y[3] * y[3] * s.xvv;
         const double bu = s.xu.dot(bend), bv = s.xv.dot(bend);
         const double inverse = 1 / metric.calcDeterminant();
-        const Vec3 n_W = s.xu.cross(s.xv);  // its square is the determinant
+        const Vector3 n_W = s.xu.cross(s.xv);  // its square is the determinant
         const double M = s.xuv.dot(n_W);
         const double K = (s.xuu.dot(n_W) * s.xvv.dot(n_W) - M * M) * inverse * inverse;  // Eqn. 3.30
         slope[0] = y[2];
@@ -108,20 +108,20 @@ struct ParametricGeodesicEquations {
     }
     /** Back to unit speed (Eqn. 3.54), and on to the chart that suits the direction of travel. */
     void project(State& y) {
-        const ParametricValue s = surface.calcParametric(Vec2(y[0], y[1]), chart);
-        const Vec3 t = y[2] * s.xu + y[3] * s.xv;
+        const ParametricValue s = surface.calcParametric(Vector2(y[0], y[1]), chart);
+        const Vector3 t = y[2] * s.xu + y[3] * s.xv;
         const int next = surface.chooseChart(s.x, t, chart);
         if (next != chart) {
             chart = next;
             y.template segment<2>(0) = surface.calcNearbyParameters(s.x, chart);
-            place(surface.calcParametric(Vec2(y[0], y[1]), chart), t, y);
+            place(surface.calcParametric(Vector2(y[0], y[1]), chart), t, y);
         } else {
             place(s, t, y);
         }
         maxKappaN = std::max(maxKappaN, frame.kappaN);
     }
     /** Sets u', v' of a state whose u, v are set, and the frame there. */
-    void place(const ParametricValue& s, const Vec3& direction, State& y) {
+    void place(const ParametricValue& s, const Vector3& direction, State& y) {
         frame = calcParametricFrame(s, surface.getNormalSign(), direction);
         const Metric metric(s);
         y.template segment<2>(2) = metric.calcRates(s, frame.t);  // Eqn. 4.65, of unit speed (4.66)
@@ -134,10 +134,9 @@ struct ParametricGeodesicEquations {
 
 /** Base of a parametric surface whose x(u, v) is known at compile time. `Derived` gives
 
-    ParametricValue calcParametric(const Vec2& uv, int chart) const
-    Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const   (u, v) of a surface point near p_S: where Newton's
-                                                                  method starts; exact on the surface if there are
-                                                                  several charts
+    ParametricValue calcParametric(const Vector2& uv, int chart) const
+    Vector2 calcNearbyParameters(const Vector3& p_S, int chart) const   (u, v) of a surface point near p_S: where
+Newton's method starts; exact on the surface if there are several charts
 
 and may replace getDomain, getNormalSign, chooseChart and calcTurned. No call of these is virtual.
 
@@ -155,60 +154,61 @@ public:
 
     /** The same as calcParametric but for one rotation of all vectors, which may depend on the chart: enough for
     the geodesic equations, and cheaper where charts differ only by the order of the axes. */
-    ParametricValue calcTurned(const Vec2& uv, int chart) const { return derived().calcParametric(uv, chart); }
+    ParametricValue calcTurned(const Vector2& uv, int chart) const { return derived().calcParametric(uv, chart); }
 
     /** Chart to use at p_S when going along t_S (zero: no direction known). `current`, the chart in use,
     is worth keeping while it is sound; -1: none. */
-    int chooseChart(const Vec3& /*p_S*/, const Vec3& /*t_S*/, int /*current*/) const { return 0; }
+    int chooseChart(const Vector3& /*p_S*/, const Vector3& /*t_S*/, int /*current*/) const { return 0; }
 
     /** Signed distance from the nearest point, of the domain or beside it. There it is no less than the way of the foot
     to the domain, and leads away from that: a bound of the distance from the sheet and from what lies below it. */
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override {
         const SurfacePoint foot = findNearest(p_S);
         const ParametricValue s = derived().calcParametric(foot.uv, foot.chart);
         N_S = derived().getNormalSign() * s.xu.cross(s.xv).normalized();
         const double height = N_S.dot(p_S - s.x);
         const ParameterDomain domain = derived().getDomain();
         if (domain.calcMargin(foot.uv) >= 0) return height;
-        const Vec3 aside = s.x - derived().calcParametric(domain.clamp(foot.uv), foot.chart).x;
+        const Vector3 aside = s.x - derived().calcParametric(domain.clamp(foot.uv), foot.chart).x;
         const double way = aside.norm();
         if (!(way > height)) return height;
         N_S = aside / way;
         return way;
     }
 
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override { return findNearest(p_S); }
+    SurfacePoint findSurfacePoint(const Vector3& p_S) const override { return findNearest(p_S); }
 
     /** The point nearest to start + displacement, sought from the first-order point (thesis Eqn. 4.60, 4.61). */
-    SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vec3& displacement_S) const override {
+    SurfacePoint calcDisplacedPoint(const SurfacePoint& start, const Vector3& displacement_S) const override {
         ParametricValue s;
         const SurfacePoint from = resolve(start, s);
-        const Vec3 target = s.x + displacement_S;
-        const int chart = derived().chooseChart(target, Vec3::Zero(), from.chart);
+        const Vector3 target = s.x + displacement_S;
+        const int chart = derived().chooseChart(target, Vector3::Zero(), from.chart);
         if (chart != from.chart) return refineNearest(target, derived().calcNearbyParameters(target, chart), chart);
-        const Vec2 uv = from.uv + detail::Metric(s).calcRates(s, displacement_S);
+        const Vector2 uv = from.uv + detail::Metric(s).calcRates(s, displacement_S);
         return refineNearest(target, uv, chart);
     }
 
-    DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override {
+    DarbouxFrame calcFrame(const SurfacePoint& point, const Vector3& direction_S) const override {
         ParametricValue s;
         resolve(point, s);
         return detail::calcParametricFrame(s, derived().getNormalSign(), direction_S);
     }
 
-    bool calcCoordinateRates(const SurfacePoint& point, const Vec3& velocity_S, Vec2& uvRates) const override {
+    bool calcCoordinateRates(const SurfacePoint& point, const Vector3& velocity_S, Vector2& uvRates) const override {
         ParametricValue s;
         resolve(point, s);
         uvRates = detail::Metric(s).calcRates(s, velocity_S);
         return true;
     }
 
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                       ShotGeodesic& geodesic) const override {
         shootByIntegration(start, options, geodesic);
     }
 
     /** Shooting by the adaptive integrator, also where a closed form stands in its place. */
-    void shootByIntegration(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const {
+    void shootByIntegration(const GeodesicStart& start, const ShootingOptions& options, ShotGeodesic& geodesic) const {
         using Equations = detail::ParametricGeodesicEquations<Derived>;
         ParametricValue s;
         SurfacePoint from = resolve(start.point, s);
@@ -224,7 +224,7 @@ public:
         geodesic.P = equations.frame;
         integrateGeodesic(equations, y, start.length, options, geodesic);
         geodesic.Q = equations.frame;
-        geodesic.endPoint = {geodesic.Q.x, Vec2(y[0], y[1]), equations.chart};
+        geodesic.endPoint = {geodesic.Q.x, Vector2(y[0], y[1]), equations.chart};
     }
 
     bool calcParametricForm(const SurfacePoint& point, ParametricValue& value) const override {
@@ -250,14 +250,14 @@ protected:
         return found;
     }
 
-    SurfacePoint findNearest(const Vec3& p_S) const {
-        const int chart = derived().chooseChart(p_S, Vec3::Zero(), -1);
+    SurfacePoint findNearest(const Vector3& p_S) const {
+        const int chart = derived().chooseChart(p_S, Vector3::Zero(), -1);
         return refineNearest(p_S, derived().calcNearbyParameters(p_S, chart), chart);
     }
 
     /** Newton's method for the least |x(u, v) - p|; steps no longer than the surface's size and halved until
     the distance does not grow. Quadratic: usually 3 to 5 evaluations. */
-    SurfacePoint refineNearest(const Vec3& p_S, Vec2 uv, int chart) const {
+    SurfacePoint refineNearest(const Vector3& p_S, Vector2 uv, int chart) const {
         constexpr int kMaxIterations = 50, kMaxHalvings = 10;
         const double size = getSize(), enough = 1e-8 * size;  // after such a step its square is left: rounding
         ParametricValue s = derived().calcParametric(uv, chart);
@@ -266,8 +266,8 @@ protected:
             s = derived().calcParametric(uv, chart);
         }
         for (int i = 0; i < kMaxIterations; ++i) {
-            const Vec3 fromTarget = s.x - p_S;
-            Vec2 step = calcNearestStep(s, fromTarget);
+            const Vector3 fromTarget = s.x - p_S;
+            Vector2 step = calcNearestStep(s, fromTarget);
             const double length = (s.xu * step[0] + s.xv * step[1]).norm();
             if (!std::isfinite(length) || length == 0) break;
             if (length > size) step *= size / length;
@@ -289,7 +289,7 @@ private:
     const Derived& derived() const { return static_cast<const Derived&>(*this); }
 
     /** Newton step of the squared distance; with the metric alone for its Hessian where that is not positive. */
-    static Vec2 calcNearestStep(const ParametricValue& s, const Vec3& fromTarget) {
+    static Vector2 calcNearestStep(const ParametricValue& s, const Vector3& fromTarget) {
         const detail::Metric metric(s);
         double H11 = metric.E + fromTarget.dot(s.xuu), H12 = metric.F + fromTarget.dot(s.xuv);
         double H22 = metric.G + fromTarget.dot(s.xvv), determinant = H11 * H22 - H12 * H12;
@@ -304,7 +304,7 @@ private:
 surfaces that know no better. */
 class NearbyGrid {
 public:
-    /** @param position   callable Vec3(const Vec2& uv) @param domain   finite */
+    /** @param position   callable Vector3(const Vector2& uv) @param domain   finite */
     template <class Position>
     void build(const ParameterDomain& domain, const Position& position) {
         constexpr int kCells = 16;
@@ -312,12 +312,12 @@ public:
         m_points.resize(3, (kCells + 1) * (kCells + 1));
         for (int i = 0; i <= kCells; ++i)
             for (int j = 0; j <= kCells; ++j) {
-                const Vec2 at(double(i) / kCells, double(j) / kCells);
+                const Vector2 at(double(i) / kCells, double(j) / kCells);
                 m_uv.push_back(domain.min + at.cwiseProduct(domain.max - domain.min));
                 m_points.col(m_uv.size() - 1) = position(m_uv.back());
             }
     }
-    Vec2 findNearest(const Vec3& p) const {
+    Vector2 findNearest(const Vector3& p) const {
         Eigen::Index nearest = 0;
         (m_points.colwise() - p).colwise().squaredNorm().minCoeff(&nearest);
         return m_uv[nearest];
@@ -325,7 +325,7 @@ public:
 
 private:
     Eigen::Matrix3Xd m_points;
-    std::vector<Vec2> m_uv;
+    std::vector<Vector2> m_uv;
 };
 
 /** A parametric surface of the user's own: override calcParametric, getDomain, getSize and getDescription.
@@ -334,20 +334,20 @@ still give a smooth surface, since iterates may pass there before isInDomain jud
 class ParametricSurface : public ParametricShape<ParametricSurface> {
 public:
     /** Position and derivatives at (u, v); xu x xv points outward unless getNormalSign says otherwise. */
-    virtual ParametricValue calcParametric(const Vec2& uv, int chart) const = 0;
+    virtual ParametricValue calcParametric(const Vector2& uv, int chart) const = 0;
 
     /** Where the surface is defined; infinite sides allowed only if calcNearbyParameters is overridden. */
     virtual ParameterDomain getDomain() const = 0;
 
     /** By default the nearest of 17 x 17 points of the domain, laid on first use. */
-    virtual Vec2 calcNearbyParameters(const Vec3& p_S, int /*chart*/) const {
+    virtual Vector2 calcNearbyParameters(const Vector3& p_S, int /*chart*/) const {
         std::call_once(m_gridFlag, [this] {
-            m_grid.build(getDomain(), [this](const Vec2& uv) { return calcParametric(uv, 0).x; });
+            m_grid.build(getDomain(), [this](const Vector2& uv) { return calcParametric(uv, 0).x; });
         });
         return m_grid.findNearest(p_S);
     }
     virtual double getNormalSign() const { return 1; }
-    virtual int chooseChart(const Vec3& /*p_S*/, const Vec3& /*t_S*/, int /*current*/) const { return 0; }
+    virtual int chooseChart(const Vector3& /*p_S*/, const Vector3& /*t_S*/, int /*current*/) const { return 0; }
 
     double calcDomainMargin(const SurfacePoint& point) const override {
         return getDomain().calcMargin(resolve(point).uv);

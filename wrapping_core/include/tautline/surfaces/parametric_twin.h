@@ -17,16 +17,16 @@ public:
     double calcDomainMargin(const SurfacePoint& point) const override {
         return getTwin().calcDomainMargin(point.p.allFinite() ? point : this->resolve(point));
     }
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override {
         return getTwin().calcHeightAndNormal(p_S, N_S);
     }
-    double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override {
+    double findLowestPoint(const Vector3& A_S, const Vector3& e_S, double length) const override {
         return getTwin().findLowestPoint(A_S, e_S, length);
     }
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override {
+    SurfacePoint findSurfacePoint(const Vector3& p_S) const override {
         return calcCoordinates(getTwin().findSurfacePoint(p_S).p);
     }
-    void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const override {
+    void findLineClearance(const Vector3& A_S, const Vector3& e_S, LineClearance& clearance) const override {
         getTwin().findLineClearance(A_S, e_S, clearance);
         if (clearance.found) clearance.C = calcCoordinates(clearance.C.p);
     }
@@ -37,10 +37,10 @@ protected:
     const Twin& getTwin() const { return this->getBase(); }
 
     /** Adds (u, v) and chart to a point of the surface. */
-    SurfacePoint calcCoordinates(const Vec3& p_S) const {
+    SurfacePoint calcCoordinates(const Vector3& p_S) const {
         const Derived& derived = static_cast<const Derived&>(*this);
-        const int chart = derived.chooseChart(p_S, Vec3::Zero(), -1);
-        const Vec2 uv = derived.calcNearbyParameters(p_S, chart);
+        const int chart = derived.chooseChart(p_S, Vector3::Zero(), -1);
+        const Vector2 uv = derived.calcNearbyParameters(p_S, chart);
         return {derived.calcParametric(uv, chart).x, uv, chart};
     }
 };

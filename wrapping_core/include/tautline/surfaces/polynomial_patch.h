@@ -31,12 +31,12 @@ public:
     int getOrderV() const { return m_orderV; }
     const Eigen::Matrix3Xd& getCoefficients() const { return m_coefficients; }
     std::string getDescription() const override;
-    void calcPartials(const Vec2& uv, PatchPartials& partials) const;
+    void calcPartials(const Vector2& uv, PatchPartials& partials) const;
 
 private:
     int m_orderU, m_orderV;
     Eigen::Matrix3Xd m_coefficients;
-    Vec2 m_middle, m_inverseHalf;
+    Vector2 m_middle, m_inverseHalf;
 };
 
 extern template class ParametricShape<PolynomialPatch>;

@@ -20,7 +20,7 @@ namespace tautline {
 template <class Form, class Base>
 class ScaledForm : public SurfaceDecorator<Form, Base> {
 public:
-    const Mat3& getMatrix() const { return m_map.getMatrix(); }
+    const Matrix3& getMatrix() const { return m_map.getMatrix(); }
     double getSize() const override { return this->getBase().getSize() * m_map.getLeastFactor(); }
     std::string getDescription() const override {
         return this->getBase().getDescription() + " scaled by " + m_map.getDescription();
@@ -33,7 +33,7 @@ public:
         return this->getBase().calcDomainMargin({m_map.mapBack(point.p), point.uv, point.chart});
     }
     /** A height of the base is a function whose gradient there is unit: first order, and exact in sign. */
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override {
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override {
         const double height = this->getBase().calcHeightAndNormal(m_map.mapBack(p_S), N_S);
         N_S = m_map.mapGradient(N_S);
         const double slope = N_S.norm();
@@ -56,7 +56,7 @@ public:
         : ScaledForm<ImplicitShape<ScaledImplicitSurface>, Base>(std::move(base), map) {}
 
     /** By the chain rule; f stays a length by the least factor. */
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    ImplicitValue calcImplicit(const Vector3& p) const {
         const ImplicitValue base = this->getBase().calcImplicit(this->m_map.mapBack(p));
         const double least = this->m_map.getLeastFactor();
         return {least * base.f, least * this->m_map.mapGradient(base.gradient),
@@ -72,16 +72,16 @@ public:
     ScaledParametricSurface(Base base, const LinearMap& map)
         : ScaledForm<ParametricShape<ScaledParametricSurface>, Base>(std::move(base), map) {}
 
-    ParametricValue calcParametric(const Vec2& uv, int chart) const {
+    ParametricValue calcParametric(const Vector2& uv, int chart) const {
         const ParametricValue s = this->getBase().calcParametric(uv, chart);
         const LinearMap& map = this->m_map;
         return {map.map(s.x), map.map(s.xu), map.map(s.xv), map.map(s.xuu), map.map(s.xuv), map.map(s.xvv)};
     }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const {
+    Vector2 calcNearbyParameters(const Vector3& p_S, int chart) const {
         return this->getBase().calcNearbyParameters(this->m_map.mapBack(p_S), chart);
     }
     double getNormalSign() const { return this->getBase().getNormalSign(); }
-    int chooseChart(const Vec3& p_S, const Vec3& t_S, int current) const {
+    int chooseChart(const Vector3& p_S, const Vector3& t_S, int current) const {
         return this->getBase().chooseChart(this->m_map.mapBack(p_S), this->m_map.mapBack(t_S), current);
     }
 };

@@ -10,13 +10,13 @@ namespace tautline {
 and tori are made of, and most of their cost. The polynomials on [-pi/4, pi/4] are those of fdlibm (k_sin.c,
 k_cos.c; S. Moshier's Cephes has the same scheme), here for both angles in step so that the compiler can pair them. */
 struct SineCosine {
-    Vec2 sine, cosine;
+    Vector2 sine, cosine;
 
-    explicit SineCosine(const Vec2& angles) {
+    explicit SineCosine(const Vector2& angles) {
         constexpr double kLimit = 1e5;  // beyond, reduction by two parts of pi/2 would cost digits
         if (!(std::abs(angles[0]) < kLimit && std::abs(angles[1]) < kLimit)) {
-            sine = Vec2(std::sin(angles[0]), std::sin(angles[1]));
-            cosine = Vec2(std::cos(angles[0]), std::cos(angles[1]));
+            sine = Vector2(std::sin(angles[0]), std::sin(angles[1]));
+            cosine = Vector2(std::cos(angles[0]), std::cos(angles[1]));
             return;
         }
         // Round to the nearest multiple of pi/2 by adding 1.5 2^52: the integer lands in the last bits.

@@ -22,9 +22,9 @@ struct SolidFitOptions {
 /** What became of a mesh. */
 struct SolidFit {
     BSplineSolid solid;
-    RepairedMesh repaired;     ///< what was fitted
-    std::vector<Vec3> points;  ///< where residuals are taken: near the corners and in the middle of each triangle that
-                               ///< lies on the outside
+    RepairedMesh repaired;        ///< what was fitted
+    std::vector<Vector3> points;  ///< where residuals are taken: near the corners and in the middle of each triangle
+                                  ///< that lies on the outside
     FitReport report;
 };
 

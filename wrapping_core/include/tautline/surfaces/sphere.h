@@ -16,17 +16,19 @@ public:
     double getSize() const override { return m_radius; }
     std::string getDescription() const override;
     bool isConvex() const override { return true; }
-    double findLowestPoint(const Vec3& A_S, const Vec3& e_S, double length) const override;
+    double findLowestPoint(const Vector3& A_S, const Vector3& e_S, double length) const override;
 
     /** f = (|p|^2 - r^2)/(2r), so that the gradient is unit on the surface. */
-    DiagonalImplicitValue calcImplicit(const Vec3& p) const {
-        return {(p.squaredNorm() - m_radius * m_radius) / (2 * m_radius), p / m_radius, Vec3::Constant(1 / m_radius)};
+    DiagonalImplicitValue calcImplicit(const Vector3& p) const {
+        return {(p.squaredNorm() - m_radius * m_radius) / (2 * m_radius), p / m_radius,
+                Vector3::Constant(1 / m_radius)};
     }
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
-    SurfacePoint findSurfacePoint(const Vec3& p_S) const override;
-    DarbouxFrame calcFrame(const SurfacePoint& point, const Vec3& direction_S) const override;
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override;
-    void findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const override;
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override;
+    SurfacePoint findSurfacePoint(const Vector3& p_S) const override;
+    DarbouxFrame calcFrame(const SurfacePoint& point, const Vector3& direction_S) const override;
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                       ShotGeodesic& geodesic) const override;
+    void findLineClearance(const Vector3& A_S, const Vector3& e_S, LineClearance& clearance) const override;
 
 private:
     double m_radius;
@@ -38,16 +40,19 @@ extern template class ImplicitShape<Sphere>;
 class ParametricSphere final : public ParametricTwin<ParametricSphere, Sphere> {
 public:
     /** @param radius   [m], positive; InvalidInput otherwise */
-    explicit ParametricSphere(double radius) : ParametricTwin(Sphere(radius)), m_charts(Vec3::Constant(radius)) {}
+    explicit ParametricSphere(double radius) : ParametricTwin(Sphere(radius)), m_charts(Vector3::Constant(radius)) {}
 
     double getRadius() const { return getTwin().getRadius(); }
-    ParametricValue calcParametric(const Vec2& uv, int chart) const { return m_charts.calcParametric(uv, chart); }
-    ParametricValue calcTurned(const Vec2& uv, int chart) const { return m_charts.calcTurned(uv, chart); }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int chart) const { return m_charts.calcNearbyParameters(p_S, chart); }
-    int chooseChart(const Vec3& p_S, const Vec3& t_S, int current) const {
+    ParametricValue calcParametric(const Vector2& uv, int chart) const { return m_charts.calcParametric(uv, chart); }
+    ParametricValue calcTurned(const Vector2& uv, int chart) const { return m_charts.calcTurned(uv, chart); }
+    Vector2 calcNearbyParameters(const Vector3& p_S, int chart) const {
+        return m_charts.calcNearbyParameters(p_S, chart);
+    }
+    int chooseChart(const Vector3& p_S, const Vector3& t_S, int current) const {
         return m_charts.chooseChart(p_S, t_S, current);
     }
-    void shootGeodesic(const GeodesicStart& start, const GeodesicOptions& options, Geodesic& geodesic) const override {
+    void shootGeodesic(const GeodesicStart& start, const ShootingOptions& options,
+                       ShotGeodesic& geodesic) const override {
         GeodesicStart from = start;
         if (!from.point.p.allFinite()) from.point = resolve(start.point);  // given by (u, v) alone
         getTwin().shootGeodesic(from, options, geodesic);

@@ -11,14 +11,14 @@ namespace tautline {
 
 /** Where the laws are checked: near a point, along a direction, over a geodesic's length. */
 struct SurfaceLawSample {
-    Vec3 p_S = Vec3::Constant(kNaN);          ///< brought to the surface first
-    Vec3 direction_S = Vec3::Constant(kNaN);  ///< not along the normal there
-    double length = 1;                        ///< of the geodesic [m], positive
+    Vector3 p_S = Vector3::Constant(kNaN);          ///< brought to the surface first
+    Vector3 direction_S = Vector3::Constant(kNaN);  ///< not along the normal there
+    double length = 1;                              ///< of the geodesic [m], positive
 };
 
 /** Tolerances, relative to the surface's size, to unit vectors, and to the largest of 1/size and the curvatures. */
 struct SurfaceLawOptions {
-    GeodesicOptions geodesics;          ///< how geodesics are shot for the laws
+    ShootingOptions geodesics;          ///< how geodesics are shot for the laws
     double exactTolerance = 1e-9;       ///< of what holds but for rounding and the integrator's accuracy
     double differenceTolerance = 1e-5;  ///< of what is compared with central differences
     double differenceStep = 3e-4;       ///< of those, over the local radius of curvature or the size if less

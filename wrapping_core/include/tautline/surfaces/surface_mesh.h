@@ -10,7 +10,7 @@ namespace tautline {
 
 /** Facets of a surface, in S. */
 struct SurfaceMesh {
-    std::vector<Vec3> points;               ///< on the surface [m]
+    std::vector<Vector3> points;            ///< on the surface [m]
     std::vector<std::array<int, 4>> faces;  ///< indices of points, counterclockwise seen from outside
     bool isCut = false;                     ///< the surface goes on beyond the box
     Eigen::AlignedBox3d box;                ///< holds all that is drawn, and all of `near_S` [m]
@@ -32,6 +32,6 @@ beyond the domain's edge, up the domain's margin from there. A part that is not 
 thinner than a facet, is missing.
 @param extent   [m], positive
 @param near_S   further points from which the surface is sought, such as contact points */
-SurfaceMesh calcSurfaceMesh(const Surface& surface, double extent, const std::vector<Vec3>& near_S = {});
+SurfaceMesh calcSurfaceMesh(const Surface& surface, double extent, const std::vector<Vector3>& near_S = {});
 
 }  // namespace tautline

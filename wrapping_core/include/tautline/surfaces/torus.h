@@ -19,11 +19,11 @@ public:
     std::string getDescription() const override;
 
     /** As the elliptic torus with both semi-axes r: f = ((rho - R)^2 + z^2 - r^2)/(2r). */
-    ImplicitValue calcImplicit(const Vec3& p) const {
+    ImplicitValue calcImplicit(const Vector3& p) const {
         return calcTorusForm(p, m_ringRadius, m_tubeRadius, m_tubeRadius);
     }
     std::optional<Hole> getHole() const override { return Hole(m_ringRadius); }
-    double calcHeightAndNormal(const Vec3& p_S, Vec3& N_S) const override;
+    double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override;
 
 private:
     double m_ringRadius, m_tubeRadius;
@@ -38,10 +38,10 @@ public:
     @param tubeRadius   [m]; 0 < tubeRadius < ringRadius, InvalidInput otherwise */
     ParametricTorus(double ringRadius, double tubeRadius) : ParametricTwin(Torus(ringRadius, tubeRadius)) {}
 
-    ParametricValue calcParametric(const Vec2& uv, int) const {
+    ParametricValue calcParametric(const Vector2& uv, int) const {
         return calcTorusPoint(uv, getTwin().getRingRadius(), getTwin().getTubeRadius(), getTwin().getTubeRadius());
     }
-    Vec2 calcNearbyParameters(const Vec3& p_S, int) const {
+    Vector2 calcNearbyParameters(const Vector3& p_S, int) const {
         return calcTorusParameters(p_S, getTwin().getRingRadius(), getTwin().getTubeRadius(),
                                    getTwin().getTubeRadius());
     }

@@ -7,9 +7,9 @@
 namespace tautline {
 
 class Cable;
-class CableSubsystemImpl;
+class CablePathSubsystemImpl;
 
-/** Identifies a cable within its CableSubsystem: 0, 1, ... in the order of creation. */
+/** Identifies a cable within its CablePathSubsystem: 0, 1, ... in the order of creation. */
 SimTK_DEFINE_UNIQUE_INDEX_TYPE(CableIndex);
 
 /** How the contacts of a cable are decided from pose to pose.
@@ -39,9 +39,9 @@ Where a handler of your own moves bodies, or a cable is otherwise found at a new
 there, a TimeStepper settles them before it goes on. A bare Integrator calls no handlers: contacts then stay as they are
 when its steps end at events (ReachedEventTrigger) that the caller ignores, Cable::calcStatus() tells so of the states
 that follow, and so does CableStatistics::numDegradedSteps. Use a TimeStepper, or ContactMode::Tracked. */
-class CableSubsystem : public SimTK::Subsystem {
+class CablePathSubsystem : public SimTK::Subsystem {
 public:
-    explicit CableSubsystem(SimTK::MultibodySystem& system);
+    explicit CablePathSubsystem(SimTK::MultibodySystem& system);
 
     int getNumCables() const;
 
@@ -80,8 +80,8 @@ public:
 
 private:
     friend class Cable;
-    CableSubsystemImpl& updImpl();
-    const CableSubsystemImpl& getImpl() const;
+    CablePathSubsystemImpl& updImpl();
+    const CablePathSubsystemImpl& getImpl() const;
 };
 
 }  // namespace tautline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tautline/surfaces/plane.h"
+#include "tautline/surfaces/half_space.h"
 
 #include <cmath>
 
@@ -8,19 +8,19 @@
 namespace tautline {
 
 // Declared extern in the header: compiled once, here.
-template class ImplicitShape<Plane>;
-template class ParametricShape<ParametricPlane>;
-template class ParametricTwin<ParametricPlane, Plane>;
+template class ImplicitShape<HalfSpace>;
+template class ParametricShape<ParametricHalfSpace>;
+template class ParametricTwin<ParametricHalfSpace, HalfSpace>;
 
-Plane::Plane(double size) : m_size(size) {
-    requireLength(size, "plane: size");
+HalfSpace::HalfSpace(double size) : m_size(size) {
+    requireLength(size, "half-space: size");
 }
 
-std::string Plane::getDescription() const {
-    return describeShape("plane(size=", m_size, ")");
+std::string HalfSpace::getDescription() const {
+    return describeShape("half-space(size=", m_size, ")");
 }
 
-void Plane::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Geodesic& geodesic) const {
+void HalfSpace::shootGeodesic(const GeodesicStart& start, const ShootingOptions&, ShotGeodesic& geodesic) const {
     geodesic.P = geodesic.Q = calcFrame(start.point, start.tangent);
     geodesic.Q.x += start.length * geodesic.P.t;
     geodesic.endPoint = {geodesic.Q.x};
@@ -30,15 +30,15 @@ void Plane::shootGeodesic(const GeodesicStart& start, const GeodesicOptions&, Ge
     geodesic.maxKappaN = 0;
 }
 
-void Plane::findLineClearance(const Vec3& A_S, const Vec3& e_S, LineClearance& clearance) const {
+void HalfSpace::findLineClearance(const Vector3& A_S, const Vector3& e_S, LineClearance& clearance) const {
     clearance.found = false;
     constexpr double kParallel = 1e-15;  // rounding of a unit vector
     if (!(std::abs(e_S.z()) <= kParallel)) return;
-    clearance.C = findSurfacePoint(A_S), clearance.N = Vec3::UnitZ(), clearance.lineCoordinate = 0;
+    clearance.C = findSurfacePoint(A_S), clearance.N = Vector3::UnitZ(), clearance.lineCoordinate = 0;
     clearance.distance = A_S.z(), clearance.scale = 1 / m_size, clearance.found = true;
 }
 
-double Plane::findLowestPoint(const Vec3&, const Vec3& e_S, double length) const {
+double HalfSpace::findLowestPoint(const Vector3&, const Vector3& e_S, double length) const {
     return e_S.z() < 0 ? length : 0;
 }
 

@@ -8,17 +8,17 @@
 
 #include "cable_impl.h"
 #include "cable_states.h"
-#include "tautline/simbody/cable_subsystem.h"
+#include "tautline/simbody/cable_path_subsystem.h"
 
 namespace tautline {
 
 class CableDecorations;
 
-/** What stands behind a CableSubsystem handle. */
-class CableSubsystemImpl : public SimTK::Subsystem::Guts {
+/** What stands behind a CablePathSubsystem handle. */
+class CablePathSubsystemImpl : public SimTK::Subsystem::Guts {
 public:
-    CableSubsystemImpl();
-    ~CableSubsystemImpl() override;
+    CablePathSubsystemImpl();
+    ~CablePathSubsystemImpl() override;
 
     const CableStates& getStates() const { return m_states; }
     void setDefaultContactMode(ContactMode mode);
@@ -62,7 +62,7 @@ public:
     }
 
 protected:
-    CableSubsystemImpl* cloneImpl() const override;
+    CablePathSubsystemImpl* cloneImpl() const override;
     int realizeSubsystemTopologyImpl(SimTK::State& state) const override;
     int realizeSubsystemPositionImpl(const SimTK::State& state) const override;
     int realizeSubsystemVelocityImpl(const SimTK::State& state) const override;

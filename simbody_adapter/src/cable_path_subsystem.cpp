@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tautline/simbody/cable_subsystem.h"
+#include "tautline/simbody/cable_path_subsystem.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "cable_subsystem_impl.h"
+#include "cable_path_subsystem_impl.h"
 #include "contact_event_handler.h"
 #include "tautline/error.h"
 #include "tautline/simbody/cable_decorations.h"
@@ -14,71 +14,71 @@ namespace tautline {
 using SimTK::Stage;
 using SimTK::State;
 
-CableSubsystem::CableSubsystem(SimTK::MultibodySystem& system) {
-    adoptSubsystemGuts(new CableSubsystemImpl());
+CablePathSubsystem::CablePathSubsystem(SimTK::MultibodySystem& system) {
+    adoptSubsystemGuts(new CablePathSubsystemImpl());
     system.adoptSubsystem(*this);
     system.addEventHandler(new SettlingEventHandler(getImpl()));
 }
 
-int CableSubsystem::getNumCables() const {
+int CablePathSubsystem::getNumCables() const {
     return getImpl().getNumCables();
 }
 
-const Cable& CableSubsystem::getCable(CableIndex cable) const {
+const Cable& CablePathSubsystem::getCable(CableIndex cable) const {
     // Handles are the same for readers and writers.
-    return const_cast<CableSubsystemImpl&>(getImpl()).updCable(cable);
+    return const_cast<CablePathSubsystemImpl&>(getImpl()).updCable(cable);
 }
 
-Cable& CableSubsystem::updCable(CableIndex cable) {
+Cable& CablePathSubsystem::updCable(CableIndex cable) {
     return updImpl().updCable(cable);
 }
 
-const Cable& CableSubsystem::getCable(const std::string& name) const {
-    return const_cast<CableSubsystemImpl&>(getImpl()).updCable(name);
+const Cable& CablePathSubsystem::getCable(const std::string& name) const {
+    return const_cast<CablePathSubsystemImpl&>(getImpl()).updCable(name);
 }
 
-const SimTK::MultibodySystem& CableSubsystem::getMultibodySystem() const {
+const SimTK::MultibodySystem& CablePathSubsystem::getMultibodySystem() const {
     return getImpl().getMultibodySystem();
 }
 
-void CableSubsystem::setDefaultContactMode(ContactMode mode) {
+void CablePathSubsystem::setDefaultContactMode(ContactMode mode) {
     updImpl().setDefaultContactMode(mode);
 }
 
-ContactMode CableSubsystem::getDefaultContactMode() const {
+ContactMode CablePathSubsystem::getDefaultContactMode() const {
     return getImpl().getDefaultContactMode();
 }
 
-void CableSubsystem::setContactMode(State& state, ContactMode mode) const {
+void CablePathSubsystem::setContactMode(State& state, ContactMode mode) const {
     for (CableIndex c(0); c < getNumCables(); ++c) getCable(c).setContactMode(state, mode);
 }
 
-void CableSubsystem::acceptPaths(State& state) const {
+void CablePathSubsystem::acceptPaths(State& state) const {
     getImpl().acceptPaths(state);
 }
 
-void CableSubsystem::forgetPaths(State& state) const {
+void CablePathSubsystem::forgetPaths(State& state) const {
     getImpl().forgetPaths(state);
 }
 
-void CableSubsystem::setShowDecorations(bool shows) {
+void CablePathSubsystem::setShowDecorations(bool shows) {
     updImpl().setShowDecorations(shows);
 }
 
-bool CableSubsystem::getShowDecorations() const {
+bool CablePathSubsystem::getShowDecorations() const {
     return getImpl().getShowDecorations();
 }
 
-void CableSubsystem::countStep(const State& state) const {
+void CablePathSubsystem::countStep(const State& state) const {
     getImpl().countStep(state);
 }
 
-CableSubsystemImpl& CableSubsystem::updImpl() {
-    return dynamic_cast<CableSubsystemImpl&>(updSubsystemGuts());
+CablePathSubsystemImpl& CablePathSubsystem::updImpl() {
+    return dynamic_cast<CablePathSubsystemImpl&>(updSubsystemGuts());
 }
 
-const CableSubsystemImpl& CableSubsystem::getImpl() const {
-    return dynamic_cast<const CableSubsystemImpl&>(getSubsystemGuts());
+const CablePathSubsystemImpl& CablePathSubsystem::getImpl() const {
+    return dynamic_cast<const CablePathSubsystemImpl&>(getSubsystemGuts());
 }
 
 namespace {
@@ -91,19 +91,19 @@ bool haveSameOptions(const PathSolverOptions& a, const PathSolverOptions& b) {
 
 }  // namespace
 
-CableSubsystemImpl::CableSubsystemImpl() : Guts("CableSubsystem", "0.1.0") {}
-CableSubsystemImpl::~CableSubsystemImpl() = default;
+CablePathSubsystemImpl::CablePathSubsystemImpl() : Guts("CablePathSubsystem", "0.1.0") {}
+CablePathSubsystemImpl::~CablePathSubsystemImpl() = default;
 
-const SimTK::MultibodySystem& CableSubsystemImpl::getMultibodySystem() const {
+const SimTK::MultibodySystem& CablePathSubsystemImpl::getMultibodySystem() const {
     return SimTK::MultibodySystem::downcast(getSystem());
 }
 
 /** Simbody finds it by two dynamic casts at each call, which cost more than a straight path. */
-const SimTK::SimbodyMatterSubsystem& CableSubsystemImpl::getMatter() const {
+const SimTK::SimbodyMatterSubsystem& CablePathSubsystemImpl::getMatter() const {
     return m_matter ? *m_matter : getMultibodySystem().getMatterSubsystem();
 }
 
-CableImpl& CableSubsystemImpl::addCable(std::string name) {
+CableImpl& CablePathSubsystemImpl::addCable(std::string name) {
     const CableIndex index(getNumCables());
     if (name.empty()) name = "cable" + std::to_string(index);
     for (const std::unique_ptr<CableImpl>& cable : m_impls)
@@ -114,24 +114,24 @@ CableImpl& CableSubsystemImpl::addCable(std::string name) {
     return *m_impls.back();
 }
 
-Cable& CableSubsystemImpl::updCable(CableIndex cable) {
+Cable& CablePathSubsystemImpl::updCable(CableIndex cable) {
     require(cable.isValid() && cable < getNumCables(), "cable subsystem: no cable ", static_cast<int>(cable), " of ",
             getNumCables());
     return m_handles[cable];
 }
 
-Cable& CableSubsystemImpl::updCable(const std::string& name) {
+Cable& CablePathSubsystemImpl::updCable(const std::string& name) {
     for (const std::unique_ptr<CableImpl>& cable : m_impls)
         if (cable->getName() == name) return m_handles[cable->getIndex()];
     throw InvalidInput("cable subsystem: no cable '" + name + "'");
 }
 
-void CableSubsystemImpl::setDefaultContactMode(ContactMode mode) {
+void CablePathSubsystemImpl::setDefaultContactMode(ContactMode mode) {
     m_defaultContactMode = mode;
     invalidateSubsystemTopologyCache();
 }
 
-void CableSubsystemImpl::ensureStage(const State& state, Stage stage, const char* method) const {
+void CablePathSubsystemImpl::ensureStage(const State& state, Stage stage, const char* method) const {
     SimTK_STAGECHECK_GE_ALWAYS(state.getSystemStage(), Stage(Stage::Topology), method);
     if (getStage(state) >= stage) return;
     SimTK_STAGECHECK_GE_ALWAYS(getMatter().getStage(state), stage, method);
@@ -141,13 +141,13 @@ void CableSubsystemImpl::ensureStage(const State& state, Stage stage, const char
 }
 
 /** A System with cables is not copied: its forces and event handlers would still mean the old cables. */
-CableSubsystemImpl* CableSubsystemImpl::cloneImpl() const {
+CablePathSubsystemImpl* CablePathSubsystemImpl::cloneImpl() const {
     throw InvalidInput("cable subsystem: a system with cables cannot be copied");
 }
 
 /** Cables with the same options share their workspaces. */
-int CableSubsystemImpl::realizeSubsystemTopologyImpl(State& state) const {
-    auto& self = const_cast<CableSubsystemImpl&>(*this);  // the topology is what Simbody caches in the System itself
+int CablePathSubsystemImpl::realizeSubsystemTopologyImpl(State& state) const {
+    auto& self = const_cast<CablePathSubsystemImpl&>(*this);  // the topology is what Simbody caches in the System itself
     self.m_matter = &getMultibodySystem().getMatterSubsystem();
     self.m_workspaces.clear();
     std::vector<CableMode> modes;
@@ -165,17 +165,17 @@ int CableSubsystemImpl::realizeSubsystemTopologyImpl(State& state) const {
     return 0;
 }
 
-int CableSubsystemImpl::realizeSubsystemPositionImpl(const State& state) const {
+int CablePathSubsystemImpl::realizeSubsystemPositionImpl(const State& state) const {
     realizePaths(state);
     return 0;
 }
 
-int CableSubsystemImpl::realizeSubsystemVelocityImpl(const State& state) const {
+int CablePathSubsystemImpl::realizeSubsystemVelocityImpl(const State& state) const {
     realizeMotions(state);
     return 0;
 }
 
-void CableSubsystemImpl::realizePaths(const State& state) const {
+void CablePathSubsystemImpl::realizePaths(const State& state) const {
     if (m_states.arePathsRealized(state)) return;
     const CableStates::All all = m_states.updAll(state);
     const SimTK::SimbodyMatterSubsystem& matter = getMatter();
@@ -193,7 +193,7 @@ void CableSubsystemImpl::realizePaths(const State& state) const {
     m_states.markPathsRealized(state);
 }
 
-void CableSubsystemImpl::realizeMotions(const State& state) const {
+void CablePathSubsystemImpl::realizeMotions(const State& state) const {
     if (m_states.areMotionsRealized(state)) return;
     BodyMotions& motions = m_states.updMotions(state);
     const SimTK::SimbodyMatterSubsystem& matter = getMatter();
@@ -204,17 +204,17 @@ void CableSubsystemImpl::realizeMotions(const State& state) const {
     m_states.markMotionsRealized(state);
 }
 
-void CableSubsystemImpl::acceptPaths(State& state) const {
-    ensureStage(state, Stage::Position, "CableSubsystem::acceptPaths()");
+void CablePathSubsystemImpl::acceptPaths(State& state) const {
+    ensureStage(state, Stage::Position, "CablePathSubsystem::acceptPaths()");
     realizePaths(state);
     startFromPaths(state, [](const CableImpl&, const CablePath&) { return true; });
 }
 
-void CableSubsystemImpl::forgetPaths(State& state) const {
+void CablePathSubsystemImpl::forgetPaths(State& state) const {
     for (SharedPath& start : m_states.updStarts(state)) start = SharedPath();
 }
 
-void CableSubsystemImpl::acceptHoldingPaths(State& state) const {
+void CablePathSubsystemImpl::acceptHoldingPaths(State& state) const {
     realizePaths(state);
     const BodyMotions motions = m_states.getMotions(state);
     startFromPaths(state, [](const CableImpl& cable, const CablePath& path) { return cable.isHolding(path); });
@@ -223,7 +223,7 @@ void CableSubsystemImpl::acceptHoldingPaths(State& state) const {
 
 /** By exchange, as an integrator does, so that the next solve overwrites what the last began with. */
 template <class Predicate>
-void CableSubsystemImpl::startFromPaths(State& state, Predicate isTaken) const {
+void CablePathSubsystemImpl::startFromPaths(State& state, Predicate isTaken) const {
     std::vector<SharedPath>& starts = m_states.updStarts(state);
     for (std::size_t i = 0; i < m_impls.size(); ++i) {
         SharedPath& path = m_states.updPath(state, static_cast<int>(i));
@@ -231,7 +231,7 @@ void CableSubsystemImpl::startFromPaths(State& state, Predicate isTaken) const {
     }
 }
 
-bool CableSubsystemImpl::needsSettling(const State& state) const {
+bool CablePathSubsystemImpl::needsSettling(const State& state) const {
     const auto keepsContacts = [&](const std::unique_ptr<CableImpl>& cable) { return cable->keepsContacts(state); };
     if (std::none_of(m_impls.begin(), m_impls.end(), keepsContacts)) return false;
     if (!m_states.arePathsRealized(state)) m_states.updChangeTime(state) = state.getTime();
@@ -242,29 +242,29 @@ bool CableSubsystemImpl::needsSettling(const State& state) const {
                        [&](const std::unique_ptr<CableImpl>& cable) { return cable->isUnsettled(state); });
 }
 
-void CableSubsystemImpl::settle(State& state) const {
+void CablePathSubsystemImpl::settle(State& state) const {
     for (const std::unique_ptr<CableImpl>& cable : m_impls) cable->handleBrokenContacts(state);
 }
 
 /** Simbody asks at each stage for what is known then. */
-int CableSubsystemImpl::calcDecorativeGeometryAndAppendImpl(const State& state, Stage stage,
+int CablePathSubsystemImpl::calcDecorativeGeometryAndAppendImpl(const State& state, Stage stage,
                                                             SimTK::Array_<SimTK::DecorativeGeometry>& geometry) const {
     if (!m_showsDecorations || stage != Stage::Position) return 0;
     // The System's own handle is a plain Subsystem; ours adds no data to it.
     if (!m_decorations)
         m_decorations =
-            std::make_unique<CableDecorations>(static_cast<const CableSubsystem&>(getOwnerSubsystemHandle()));
+            std::make_unique<CableDecorations>(static_cast<const CablePathSubsystem&>(getOwnerSubsystemHandle()));
     m_decorations->generateDecorations(state, geometry);
     return 0;
 }
 
-void CableSubsystemImpl::countStep(const State& state) const {
+void CablePathSubsystemImpl::countStep(const State& state) const {
     getSystem().realize(state, Stage::Position);
     for (const std::unique_ptr<CableImpl>& cable : m_impls)
         if (!cable->isDisabled(state)) cable->countStep(state);
 }
 
-void CableSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause cause, const SimTK::Array_<SimTK::EventId>&,
+void CablePathSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause cause, const SimTK::Array_<SimTK::EventId>&,
                                           const SimTK::HandleEventsOptions&,
                                           SimTK::HandleEventsResults& results) const {
     if (cause != SimTK::Event::Cause::Initialization) return;
