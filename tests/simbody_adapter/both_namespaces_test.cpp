@@ -26,7 +26,7 @@ TEST(BothNamespaces, ServeOneProgram) {
 
     State state = system.realizeTopology();
     system.realize(state, Stage::Velocity);
-    EXPECT_GT(cable.calcLength(state), 4);
+    EXPECT_GT(cable.getLength(state), 4);
     EXPECT_GT(cable.getArcLength(state, drum), 0);
 }
 
