@@ -10,6 +10,7 @@
 #include "support/random.h"
 #include "support/surface_cases.h"
 #include "tautline/paths/path_explanation.h"
+#include "tautline/paths/segment_clearance.h"
 
 namespace tautline::testing {
 namespace {
@@ -175,6 +176,36 @@ TEST(PatchEdge, AStringOverTheMiddleOfAMapIsSolvedAndOneOverItsEdgeHasLeftIt) {
     EXPECT_EQ(solve(-0.3).status, PathStatus::Solved);
     EXPECT_EQ(solve(-0.8).status, PathStatus::LeftDomain);
     EXPECT_EQ(solve(-1.5).status, PathStatus::NotConverged);  // below what goes on beyond the edge: nothing smooth
+}
+
+/** What is said of a straight line between two points that passes below a flat map. */
+std::string explainSunkLine(const Vector3& A, const Vector3& B) {
+    const auto map = std::make_shared<BSplinePatch>(
+        BSplinePatch::interpolateHeights({Vector2(-1, -1), Vector2(1, 1)}, Eigen::MatrixXd::Zero(11, 11)));
+    PathScene scene;
+    scene.point(A).obstacle(map, Pose()).point(B);
+    PathSolution path;
+    path.contacts.resize(3);
+    path.segments = {StraightSegment()};
+    StraightSegment& line = path.segments.front();
+    line.A = A, line.B = B, line.length = (B - A).norm(), line.e = (B - A) / line.length, line.toElement = 2;
+    findSegmentClearance(*map, Pose(), A, B, path.contacts[1].clearance);
+    EXPECT_LT(path.contacts[1].clearance.distance, 0);
+    path.status = PathStatus::NotMinimum;
+    return explainStatus(scene.problem, scene.pose, path);
+}
+
+// Symptom until 2026-11-28: nothing told that such a string has slid off.
+TEST(PatchEdge, OfALineThatComesOutBesideAMapFromBelowItsEdgeIsSaid) {
+    for (const double depth : {0.1, 0.3})
+        for (const double far : {1.01, 1.1, 3.0}) {
+            const std::string past = explainSunkLine(Vector3(-0.5, 0.1, 0.02), Vector3(far, 0.2, -depth));
+            EXPECT_NE(past.find("passes below"), std::string::npos) << past;
+            EXPECT_NE(past.find("leaves the domain of the surface beside it"), std::string::npos) << past;
+        }
+    const std::string within = explainSunkLine(Vector3(-0.5, 0.1, 0.02), Vector3(0.7, 0.2, -0.1));
+    EXPECT_NE(within.find("passes below"), std::string::npos) << within;
+    EXPECT_EQ(within.find("beside it"), std::string::npos) << within;
 }
 
 }  // namespace

@@ -260,6 +260,40 @@ TEST(SignedDistance, NoLineThroughABodyIsClearFromWhateverSideItIsWatched) {
     EXPECT_GT(clear, 2000);
 }
 
+// Symptom until 2026-11-28: along the axis of a capsule, watched from its tip, the clearance was the height over the
+// tangent plane there, which the line crosses: 0, and a string straight through was solved.
+TEST(SignedDistance, LinesAlongTheAxesOfABodyAreSunkFromWhateverSideTheyAreWatched) {
+    const Shape shapes[] = {{"capsule", std::make_shared<Capsule>(0.3, 0.4, 0.5)},
+                            {"ellipsoid", std::make_shared<Ellipsoid>(Vector3(0.3, 0.4, 0.5))},
+                            {"sphere", std::make_shared<Sphere>(0.4)}};
+    for (const Shape& shape : shapes)
+        for (const double rounding : {0.0, 1e-17, 1e-14})
+            for (int along = 0; along < 3; ++along)
+                for (int watched = 0; watched < 6; ++watched) {
+                    const Vector3 off = rounding * Vector3(1, 2, 3);
+                    const Vector3 A = off - 2 * Vector3::Unit(along), B = off + 2 * Vector3::Unit(along);
+                    LineClearance clearance;
+                    clearance.keptN = (watched < 3 ? 1 : -1) * Vector3::Unit(watched % 3);
+                    clearance.keptC = shape.surface->findSurfacePoint(2 * clearance.keptN);
+                    findSegmentClearance(*shape.surface, Pose(), A, B, clearance);
+                    EXPECT_LT(clearance.distance, -0.1)
+                        << shape.name << " along " << along << ", watched from " << clearance.keptN.transpose();
+                    EXPECT_GT(clearance.distance, -10) << shape.name << " along " << along;
+                }
+}
+
+TEST(SignedDistance, NoDepthIsBeyondAllBoundsWhereTheGradientVanishes) {
+    const Capsule capsule(0.3, 0.4, 0.5);
+    for (const double aside : {0.0, 1e-300, 1e-17, 1e-9})
+        for (const double z : {0.0, 0.1, 0.3, 0.69}) {
+            Vector3 N;
+            const double height = capsule.calcHeightAndNormal(Vector3(aside, 0, z), N);
+            EXPECT_LT(height, 0);
+            EXPECT_GE(height, -10 * capsule.getSize()) << aside << " from the axis at " << z;
+            EXPECT_NEAR(N.norm(), 1, 1e-15);
+        }
+}
+
 TEST(SignedDistance, TouchingLinesReadZero) {
     LineClearance clearance;
     findSegmentClearance(Sphere(0.5), Pose(), Vector3(-1, 0.5, 0), Vector3(1, 0.5, 0), clearance);

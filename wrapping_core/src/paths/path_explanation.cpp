@@ -103,6 +103,26 @@ const StraightSegment* findRoundedSegment(const PathSolution& path) {
     return nullptr;
 }
 
+/** Whether a segment that passes below a sheet, at this place, comes out beside it: from there the string slides off.
+Past an edge the height jumps, by far more than the way there. */
+bool passesEdge(const Surface& surface, const Pose& X_GS, const StraightSegment& line, const Vector3& place_G) {
+    constexpr int kSamples = 200;  // from the place to an end
+    constexpr double kJump = 3;    // in steps
+    const auto comesOutBeside = [&](const Vector3& end_G) {
+        const Vector3 step = (end_G - place_G) / kSamples;
+        double last = 0;
+        for (int i = 0; i <= kSamples; ++i) {
+            const Vector3 p_S = X_GS.shiftBack(place_G + i * step);
+            const double height = surface.calcHeight(p_S);
+            if (height > 0)
+                return height - last > kJump * step.norm() || !surface.isInDomain(surface.findSurfacePoint(p_S));
+            last = height;
+        }
+        return false;
+    };
+    return comesOutBeside(line.A) || comesOutBeside(line.B);
+}
+
 /** Two obstacles of which the arc on one passes below the surface of the other: they overlap where the path passes. */
 StringFault findOverlap(const PathProblem& problem, const PathPose& pose, const PathSolution& path) {
     constexpr int kSamples = 9;  // of an arc
@@ -215,7 +235,12 @@ std::string explainNotMinimum(const PathProblem& problem, const PathPose& pose, 
     const Vector3& place = verification.place_G;
     std::ostringstream text;
     text << describe(verification, problem) << " at (" << place.x() << ", " << place.y() << ", " << place.z() << ")";
-    text << describeCause(problem, pose, path);
+    const bool isSunk = verification.condition == Condition::Penetration && verification.segment >= 0;
+    if (isSunk && passesEdge(*problem.getElement(verification.element).surface, pose.X_GE[verification.element],
+                             path.segments[verification.segment], place))
+        text << " and leaves the domain of the surface beside it";
+    else
+        text << describeCause(problem, pose, path);
     return text.str();
 }
 

@@ -35,12 +35,19 @@ void findFreshClearance(const Surface& surface, const Vector3& A_S, const Vector
 }
 
 /** A line that has sunk so deep that it has no critical point on the kept side any longer, beyond the centres of
-curvature, may show one on the far side, clear of it: the height over the tangent plane at the kept place tells. */
-void staySunk(const Surface& surface, const Vector3& A_S, const Vector3& e_S, double length, LineClearance& clearance) {
+curvature, may show one on the far side, clear of it: the height over the tangent plane at the kept place tells, of the
+line's point nearest to that place or of its lowest one (for a line along the normal the former is in the plane).
+@param lowest    where the line is lowest [m] */
+void staySunk(const Surface& surface, const Vector3& A_S, const Vector3& e_S, double length, double lowest,
+              LineClearance& clearance) {
     if (!(clearance.distance > 0) || !(clearance.N.dot(clearance.keptN) < 0)) return;
     if (!surface.isInDomain(clearance.C)) return;  // beside the surface
-    const double s = std::clamp(e_S.dot(clearance.keptC.p - A_S), 0.0, length);
-    const double height = clearance.keptN.dot(A_S + s * e_S - clearance.keptC.p);
+    const auto calcHeightOverPlane = [&](double s) {
+        return clearance.keptN.dot(A_S + s * e_S - clearance.keptC.p);
+    };
+    double s = std::clamp(e_S.dot(clearance.keptC.p - A_S), 0.0, length);
+    if (calcHeightOverPlane(lowest) < calcHeightOverPlane(s)) s = lowest;
+    const double height = calcHeightOverPlane(s);
     if (!(height < 0)) return;
     clearance.C = clearance.keptC, clearance.N = clearance.keptN;
     clearance.distance = height, clearance.scale = 1 / surface.getSize();
@@ -80,7 +87,7 @@ void findSegmentClearance(const Surface& surface, const Pose& X_GS, const Vector
     if (!kept.found || isSunkElsewhere(surface, A_S, e_S, length, kept)) {
         const double lowest = surface.findLowestPoint(A_S, e_S, length);
         findFreshClearance(surface, A_S, e_S, length, lowest, kept);
-        if (knowsSide) staySunk(surface, A_S, e_S, length, kept);
+        if (knowsSide) staySunk(surface, A_S, e_S, length, lowest, kept);
         if (!kept.found) takeHeight(surface, A_S, e_S, lowest, kept);
     }
     if (kept.found && !isOnSegment(kept, length))  // past an end, the height of that end is what counts

@@ -130,7 +130,8 @@ class ImplicitShape : public Surface {
 public:
     double calcHeightAndNormal(const Vector3& p_S, Vector3& N_S) const override { return calcFormHeight(p_S, N_S); }
 
-    /** f over the length of its gradient: the height above f = 0, which goes on where the surface has an edge. */
+    /** f over the length of its gradient: the height above f = 0, which goes on where the surface has an edge. Where the
+    gradient vanishes, on the axis of a capsule, that would be beyond all bounds: no depth is more than kDeepest sizes. */
     double calcFormHeight(const Vector3& p_S, Vector3& N_S) const {
         const auto value = derived().calcImplicit(p_S);
         const double g = value.gradient.norm();
@@ -139,7 +140,7 @@ public:
             return -getSize();
         }
         N_S = value.gradient / g;
-        return value.f / g;
+        return std::max(value.f / g, -kDeepest * getSize());
     }
 
     SurfacePoint findSurfacePoint(const Vector3& p_S) const override { return {projectToSurface(p_S)}; }
@@ -196,6 +197,8 @@ protected:
     }
 
 private:
+    static constexpr double kDeepest = 10;
+
     const Derived& derived() const { return static_cast<const Derived&>(*this); }
 };
 
