@@ -33,8 +33,39 @@ double calcShortTurning(const Vector3& from_S, const Vector3& to_S) {
     return std::atan2(from_S.x() * to_S.y() - from_S.y() * to_S.x(), from_S.head<2>().dot(to_S.head<2>()));
 }
 
+namespace {
+
+constexpr double kQuarterTurn = 0.5 * kPi;
+
+/** By how much an arc turns if it curves nowhere more than at its ends or than a sphere of the surface's size [rad]. */
+double calcLargestTurn(const Surface& surface, const ContactArc& arc) {
+    const double atEnds = std::max(std::abs(arc.geodesic.P.kappaN), std::abs(arc.geodesic.Q.kappaN));
+    return std::abs(arc.start.length) * std::max(atEnds, 1 / surface.getSize());
+}
+
+/** By how much an arc turns about the z axis of S, walked in pieces of less than a quarter turn each; in more of them
+where one turns farther than was expected.
+@param expected   of the whole arc [rad] */
+double calcTurningAlong(const Surface& surface, const ContactArc& arc, double expected) {
+    constexpr int kMostPieces = 2000;
+    constexpr double kPiece = 1.3;  // [rad]
+    int pieces = static_cast<int>(std::min<double>(kMostPieces, std::ceil(expected / kPiece)));
+    for (;; pieces *= 4) {
+        ArcWalker walker(surface, arc.start, kRoughlyAlong, pieces);
+        double turning = 0;
+        bool isShort = true;
+        for (int k = 0; k < pieces && isShort; ++k) {
+            const ShotGeodesic& piece = walker.next();
+            turning += calcShortTurning(piece.P.x, piece.Q.x);
+            isShort = piece.P.t.dot(piece.Q.t) > 0;
+        }
+        if (isShort || pieces >= kMostPieces) return turning;
+    }
+}
+
+}  // namespace
+
 double calcTurning(const Surface& surface, const ObstacleContact& contact, const Vector3& A_S, const Vector3& B_S) {
-    constexpr double kMostPieces = 2000, kQuarterTurn = 0.5 * kPi;
     double turning = 0;
     Vector3 last = A_S;
     const auto goTo = [&](const Vector3& p) {
@@ -42,18 +73,14 @@ double calcTurning(const Surface& surface, const ObstacleContact& contact, const
         last = p;
     };
     for (int i = 0; i < contact.getNumArcs(); ++i) {
-        const GeodesicStart& start = contact.getArc(i).start;
-        const ShotGeodesic& arc = contact.getArc(i).geodesic;
-        const double curvature = std::max({std::abs(arc.P.kappaN), std::abs(arc.Q.kappaN), 1 / surface.getSize()});
-        const double turn = std::abs(start.length) * curvature;
-        const int pieces = static_cast<int>(std::min(kMostPieces, 2 + 2 * turn));
-        goTo(arc.P.x);
-        if (turn < kQuarterTurn) {
-            goTo(arc.Q.x);
-        } else {
-            ArcWalker walker(surface, start, kRoughlyAlong, pieces);
-            for (int k = 0; k < pieces; ++k) goTo(walker.next().Q.x);
-        }
+        const ContactArc& arc = contact.getArc(i);
+        goTo(arc.geodesic.P.x);
+        const double expected = calcLargestTurn(surface, arc);
+        if (expected < kQuarterTurn)
+            goTo(arc.geodesic.Q.x);
+        else
+            turning += calcTurningAlong(surface, arc, expected);
+        last = arc.geodesic.Q.x;
     }
     goTo(B_S);
     return turning;

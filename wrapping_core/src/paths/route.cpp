@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "paths/arc_course.h"
 #include "surfaces/arc_walker.h"
@@ -17,6 +18,7 @@ constexpr int kArcWaypoints = 6;      ///< points taken from each arc of a previ
 constexpr int kWaypointsPerTurn = 8;  ///< of a winding
 constexpr double kFar = 1e3;          ///< in sizes of the surface: from there the way down ends on the outside
 constexpr double kClear = 3;          ///< in sizes: how far beside a body the search for its surface begins
+constexpr double kOnRay = 1e-3;       ///< in sizes: height at which a ray has come down on the surface
 constexpr int kHoleSteps = 12;        ///< towards the hole's center
 
 /** Where the straight line of the string comes from and goes to, in S. */
@@ -32,17 +34,38 @@ Vector3 makeCylindrical(double radius, double azimuth, double z) {
     return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
 }
 
+/** A point just outside a convex body that has the z axis inside, at this azimuth and height: Newton's method on the
+height along the ray from the axis, which from outside never goes too far. None where the axis is not inside. */
+std::optional<Vector3> findPointOverAxis(const Surface& surface, double azimuth, double z) {
+    constexpr int kMaxSteps = 30;
+    const double size = surface.getSize();
+    const Vector3 outward = makeCylindrical(1, azimuth, 0), onAxis(0, 0, z);
+    if (!surface.isConvex() || !(surface.calcHeight(onAxis) < 0)) return {};
+    double radius = 2 * size;
+    while (radius < kFar * size && !(surface.calcHeight(onAxis + radius * outward) > 0)) radius *= 2;
+    for (int i = 0; i < kMaxSteps; ++i) {
+        Vector3 N;
+        const Vector3 p = onAxis + radius * outward;
+        const double height = surface.calcHeightAndNormal(p, N);
+        if (!(height > kOnRay * size)) return p;
+        radius -= height / N.dot(outward);
+        if (!(radius > 0)) break;
+    }
+    return {};
+}
+
 /** Where a ray from far outside towards the z axis of S, at this azimuth and height, meets the surface: no step is
 longer than half the height there. From a ray that passes by, the surface point under its start. */
 Vector3 findOutermostPoint(const Surface& surface, double azimuth, double z) {
     constexpr int kMaxSteps = 200;
-    const double size = surface.getSize(), least = 1e-3 * size;
+    if (const auto p = findPointOverAxis(surface, azimuth, z)) return surface.findSurfacePoint(*p).p;
+    const double size = surface.getSize();
     const Vector3 outward = makeCylindrical(1, azimuth, 0);
     double radius = kFar * size;
     for (int i = 0; i < kMaxSteps && radius > 0; ++i) {
         const Vector3 p = radius * outward + Vector3(0, 0, z);
         const double height = surface.calcHeight(p);
-        if (!(height > least)) return surface.findSurfacePoint(p).p;
+        if (!(height > kOnRay * size)) return surface.findSurfacePoint(p).p;
         radius -= height / 2;
     }
     return surface.findSurfacePoint(makeCylindrical(kFar * size, azimuth, z)).p;
