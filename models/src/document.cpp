@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "document.h"
 
+#include "field_settings.h"
+
 namespace tautline::models {
 
 Document::Document(std::string_view text, const std::string& fileName, const ReadingOptions& options,
@@ -11,6 +13,7 @@ Document::Document(std::string_view text, const std::string& fileName, const Rea
       m_reading{m_source, m_options, m_model, {}},
       m_root(m_reading, m_source.getRoot()) {
     if (m_model.fileName.empty()) m_model.fileName = fileName;
+    applySettings(m_options.settings, m_source, m_model.notes);
 }
 
 void Document::requireRoot(const std::string& tag) const {

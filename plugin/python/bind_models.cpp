@@ -43,9 +43,10 @@ struct Model {
     }
 };
 
-Model readModel(const std::string& file, const std::vector<std::string>& ignored, bool lengthsOnly) {
+Model readModel(const std::string& file, const std::vector<std::string>& ignored, bool lengthsOnly,
+                const std::vector<std::string>& settings) {
     const py::gil_scoped_release released;
-    return {std::make_shared<const ModelDescription>(models::readOsimFile(file, {ignored, lengthsOnly}))};
+    return {std::make_shared<const ModelDescription>(models::readOsimFile(file, {ignored, lengthsOnly, settings}))};
 }
 
 /** What StudyResults and Study have in common. */
@@ -302,10 +303,11 @@ void bindModels(py::module_& module) {
         .def_property_readonly("notes", &Model::getNotes,
                                "What was read over or read otherwise than it is written, and why.");
     module.def("read_osim", &readModel, arg("file"), py::kw_only(), arg("ignored") = std::vector<std::string>(),
-               arg("lengths_only") = false,
+               arg("lengths_only") = false, arg("settings") = std::vector<std::string>(),
                "Reads an OpenSim model.\n\n"
                "ignored        names or types of elements to leave out though they are not known\n"
-               "lengths_only   what only makes forces is never in the way\n\n"
+               "lengths_only   what only makes forces is never in the way\n"
+               "settings       ELEMENT/FIELD=VALUE or ELEMENT/FIELD=*FACTOR: fields with other values than the file's\n\n"
                "Raises ModelError with everything that is not known.");
 
     py::class_<StudyResults, std::shared_ptr<StudyResults>>(

@@ -9,10 +9,11 @@ namespace tautline {
 namespace {
 
 /** Reads a model without the elements that are not known, if it can be read without them. */
-CheckedModel readModel(const std::filesystem::path& file, std::vector<std::string> ignored) {
+CheckedModel readModel(const std::filesystem::path& file, std::vector<std::string> ignored,
+                       const std::vector<std::string>& settings) {
     CheckedModel read;
     try {
-        read.description = models::readOsimFile(file, {ignored, false});
+        read.description = models::readOsimFile(file, {ignored, false, settings});
         return read;
     } catch (const models::UnknownElementsError& error) {
         read.unknown = error.getElements();
@@ -21,19 +22,19 @@ CheckedModel readModel(const std::filesystem::path& file, std::vector<std::strin
             ignored.push_back(element.type);
         }
     }
-    read.description = models::readOsimFile(file, {ignored, false});
+    read.description = models::readOsimFile(file, {ignored, false, settings});
     return read;
 }
 
 }  // namespace
 
 void CheckCommand::declare(CLI::App& app) {
-    addModelOptions(app, modelFile, ignored);
+    addModelOptions(app, modelFile, ignored, settings);
     app.add_flag("--json", printsJson, "print all of it as JSON");
 }
 
 int CheckCommand::run(std::ostream& out, bool isTerminal) const {
-    CheckedModel model = readModel(modelFile, ignored);
+    CheckedModel model = readModel(modelFile, ignored, settings);
     ProgressBar bar(out, isTerminal && !printsJson);
     model.check = models::checkModel(model.description, [&bar](double share) { bar.show(share); });
     bar.clear();

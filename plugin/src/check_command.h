@@ -12,7 +12,8 @@ namespace tautline {
 coordinates, and what differs from OpenSim, as tables or as JSON. Writes no files. */
 struct CheckCommand {
     std::filesystem::path modelFile;
-    std::vector<std::string> ignored;  ///< names or types of unknown elements
+    std::vector<std::string> ignored;   ///< names or types of unknown elements
+    std::vector<std::string> settings;  ///< ELEMENT/FIELD=VALUE
     bool printsJson = false;
 
     /** Declares the options in a subcommand. */

@@ -63,7 +63,7 @@ void printEnding(const SimulationEnding& ending, double end, std::ostream& out) 
 }  // namespace
 
 void RunCommand::declare(CLI::App& app) {
-    addModelOptions(app, modelFile, ignored);
+    addModelOptions(app, modelFile, ignored, settings);
     CLI::Option* duration =
         app.add_option("--duration", simulation.duration, "time to simulate [s]")->capture_default_str();
     app.add_option("--from", startTime, "time at which to begin [s]; default: 0, or the first row of --states");
@@ -100,7 +100,7 @@ void RunCommand::declare(CLI::App& app) {
 }
 
 models::ModelDescription RunCommand::readModel() const {
-    models::ModelDescription description = models::readOsimFile(modelFile, {ignored, false});
+    models::ModelDescription description = models::readOsimFile(modelFile, {ignored, false, settings});
     lockCoordinates(locked, description);
     if (gravity.empty()) return description;
     description.gravity = Vector3(gravity[0], gravity[1], gravity[2]);

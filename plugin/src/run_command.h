@@ -22,6 +22,7 @@ struct RunCommand {
     std::filesystem::path modelFile, outFolder = "results";
     /** Names or types of unknown elements that are left out. */
     std::vector<std::string> ignored;
+    std::vector<std::string> settings;  ///< ELEMENT/FIELD=VALUE
     ExcitationOptions excitations;
     SimulationOptions simulation;
     std::filesystem::path statesFile, externalLoadsFile;

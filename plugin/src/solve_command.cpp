@@ -45,7 +45,7 @@ void printMotion(const std::filesystem::path& file, const Motion& motion, const 
 }  // namespace
 
 void SolveCommand::declare(CLI::App& app) {
-    addModelOptions(app, modelFile, ignored, "name or type of an element, or pattern of columns,");
+    addModelOptions(app, modelFile, ignored, settings, "name or type of an element, or pattern of columns,");
     app.add_option("--motion", motionFile, "motion or states file (.mot, .sto): solve in each of its frames");
     addRepeatable(app, "--pose", pose,
                   "value of a coordinate, NAME=VALUE in rad or m (30deg: degrees), over the motion's");
@@ -56,7 +56,7 @@ void SolveCommand::declare(CLI::App& app) {
 }
 
 int SolveCommand::run(std::ostream& out, bool isTerminal) const {
-    const models::ModelDescription description = models::readOsimFile(modelFile, {ignored, true});
+    const models::ModelDescription description = models::readOsimFile(modelFile, {ignored, true, settings});
     const std::vector<std::string> names = getPathNames(description);
     if (names.empty()) throw std::runtime_error(modelFile.string() + ": the model has no paths");
     requireMatches(patterns, names, "--muscles");

@@ -17,6 +17,7 @@ struct SolveCommand {
     std::vector<std::string> pose;      ///< NAME=VALUE
     std::vector<std::string> patterns;  ///< of paths; empty: all
     std::vector<std::string> ignored;   ///< elements of the model, and columns of the motion
+    std::vector<std::string> settings;  ///< ELEMENT/FIELD=VALUE
     bool allowsDegraded = false;
     PageOptions page;
 

@@ -15,6 +15,10 @@ struct ReadingOptions {
     std::vector<std::string> ignored;
     /** Nothing will be simulated: what only makes forces is never in the way. */
     bool lengthsOnly = false;
+    /** Fields that get other values than the file gives them, each ELEMENT/FIELD=VALUE, or ELEMENT/FIELD=*FACTOR for
+    numbers that are multiplied. The names of elements around it, before ELEMENT, tell elements of one name apart. What
+    was set is in ModelDescription::notes. */
+    std::vector<std::string> settings = {};
 };
 
 /** An element of a file that the reader does not know. */
