@@ -25,6 +25,10 @@ constexpr double kMaxRelaxation = 1.9;
 constexpr double kDisturbance = 1e-3;  ///< of the room of a node: well below its spacing, well above where it rests
 constexpr double kNodesPerTurn = 20;   ///< at the default fineness
 
+int calcMaxNodes(const PathProblem& problem) {
+    return std::max(kMaxNodes, kMaxNodesPerElement * problem.getNumElements());
+}
+
 /** Where a line along e that dips deepest below a surface at D is bent to: the foot of D, straight across from it. If
 it is not across, D lies on an axis or a centre, and the foot may lie in a plane of symmetry in which the string would
 stay: then the foot of a point beside D, in a direction that is special for no shape. */
@@ -39,6 +43,11 @@ Vector3 findBend(const Surface& surface, const Vector3& D_S, const Vector3& e_S)
 }  // namespace
 
 void ElasticBand::lay(const PosedProblem& scene, const Waypoints& waypoints) {
+    m_goesRoundWalls = false;
+    layAlong(scene, waypoints);
+}
+
+void ElasticBand::layAlong(const PosedProblem& scene, const Waypoints& waypoints) {
     const PathProblem& problem = scene.problem;
     const PathPose& pose = scene.pose;
     m_nodes.clear();
@@ -91,6 +100,7 @@ void ElasticBand::layEdge(const PathProblem& problem, int firstHold, Vector3 A, 
         bend = X_GS * findBend(surface, D_S, e_S);
     }
     if (crossed < 0) return;
+    if (m_goesRoundWalls && layCourse(problem, firstHold, crossed, A, B, depth)) return;
     layEdge(problem, firstHold, A, bend, depth - 1);
     addNode(bend, false);
     noteContact(m_holds[crossed], static_cast<int>(m_nodes.size()) - 1);
@@ -114,7 +124,10 @@ void ElasticBand::relax(const PathProblem& problem, const BandLevel& level) {
     for (int i = 0; i < level.maxSweeps && m_numHeights < m_maxHeights; ++i) {
         updatePortions(problem);
         if (i % kSweepsPerMesh == 0) {
-            remesh(problem, level.fineness);
+            if (m_goesRoundWalls)
+                remeshRoundWalls(problem, level.fineness);
+            else
+                remesh(problem, level.fineness);
             updatePortions(problem);
             forgetHeights();
         }
@@ -152,10 +165,15 @@ double ElasticBand::calcRoom(const PathProblem& problem, const Vector3& x, int n
     return room;
 }
 
+/** @param node   before x */
+double ElasticBand::calcSpacing(const PathProblem& problem, double fineness, const Vector3& x, int node) {
+    const double least = m_extent / calcMaxNodes(problem);
+    return std::max(least, fineness * kSpacingPerRoom * calcRoom(problem, x, node));
+}
+
 /** New nodes along the polygon, closer where room is small; contacts keep their place on the string. */
 void ElasticBand::remesh(const PathProblem& problem, double fineness) {
-    const int maxNodes = std::max(kMaxNodes, kMaxNodesPerElement * problem.getNumElements());
-    const double least = m_extent / maxNodes;
+    const int maxNodes = calcMaxNodes(problem);
     std::vector<Vector3> nodes;
     std::vector<char> isFixed;
     std::vector<int> newIndex(m_nodes.size());  // of the new node at or just after an old one
@@ -171,8 +189,7 @@ void ElasticBand::remesh(const PathProblem& problem, double fineness) {
         const double length = edge.norm();
         double at = 0;
         while (static_cast<int>(nodes.size()) < maxNodes) {
-            const double spacing =
-                std::max(least, fineness * kSpacingPerRoom * calcRoom(problem, nodes.back(), static_cast<int>(k)));
+            const double spacing = calcSpacing(problem, fineness, nodes.back(), static_cast<int>(k));
             // Where the last node lies relative to this edge: step from it to the sphere of radius `spacing`.
             const Vector3 toStart = m_nodes[k] - nodes.back();
             const Vector3 direction = length > 0 ? Vector3(edge / length) : Vector3(Vector3::Zero());
@@ -187,6 +204,12 @@ void ElasticBand::remesh(const PathProblem& problem, double fineness) {
             isFixed.push_back(0);
         }
     }
+    takeMesh(problem, nodes, isFixed, newIndex);
+}
+
+/** @param newIndex   of the new node at or just after an old one */
+void ElasticBand::takeMesh(const PathProblem& problem, std::vector<Vector3>& nodes, std::vector<char>& isFixed,
+                           const std::vector<int>& newIndex) {
     for (Hold& hold : m_holds) {
         hold.from = newIndex[hold.from], hold.to = newIndex[hold.to];
         if (!hold.touches()) continue;
@@ -197,6 +220,7 @@ void ElasticBand::remesh(const PathProblem& problem, double fineness) {
     m_nodes.swap(nodes);
     m_isFixed.swap(isFixed);
     m_room.assign(m_nodes.size(), m_extent);
+    const double least = m_extent / calcMaxNodes(problem);
     m_stiffness.resize(m_nodes.size());
     for (std::size_t k = 0; k + 1 < m_nodes.size(); ++k)
         m_stiffness[k] = 1 / std::max(least * 1e-3, (m_nodes[k + 1] - m_nodes[k]).norm());
@@ -241,6 +265,7 @@ double ElasticBand::sweep(const PathProblem& problem, double relaxation, bool is
         moveNode(k, old + move);
         double room = m_extent;
         pushOut(problem, k, room);
+        if (m_goesRoundWalls) keepEdgesClear(problem, k, old, room);
         m_room[k] = room;
         largest = std::max(largest, (m_nodes[k] - old).norm() / room);
     }

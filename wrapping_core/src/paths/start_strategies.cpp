@@ -265,7 +265,7 @@ void PathSearch::solveInserted(const Route& route, PathSolution& path) {
 
 /** Ever finer bands, until the local solver leads on from one. One that has slipped off the route asked for is laid
 anew: where a string rests in a groove, nodes that are too far apart may miss it. One that rests on the route, but is
-not smooth, may show more when it is finer. */
+not smooth, may show more when it is finer; but one that passes through a wall is not made finer, but laid round it. */
 void PathSearch::solveAlongBand(const Route& route, bool keepsSides, PathSolution& path) {
     path.fault = {};
     m_atRestRank = Rank::None;
@@ -276,7 +276,9 @@ void PathSearch::solveAlongBand(const Route& route, bool keepsSides, PathSolutio
         if (hasSlipped) m_band.lay(*m_scene, route.waypoints);
         const Rank rank = freeBand(tightenBand(band, route, keepsSides, path), route, keepsSides, path);
         if (m_bestRank == Rank::Minimum) return;
-        hasSlipped = rank == Rank::MinimumElsewhere && !isAtRest(m_band.findFault(m_scene->problem));
+        const bool rests = isAtRest(m_band.findFault(m_scene->problem));
+        if (!rests && m_band.passesThroughWalls(m_scene->problem)) return solveRoundWalls(route, keepsSides, path);
+        hasSlipped = rank == Rank::MinimumElsewhere && !rests;
         if (hasSlipped && !mayHaveLeftGroove(*m_scene, route, path)) return;
     }
     if (hasSlipped) return;
@@ -285,6 +287,18 @@ void PathSearch::solveAlongBand(const Route& route, bool keepsSides, PathSolutio
     if (fault == StringFault::Kind::Sliding) m_band.disturb();
     const bool mayMove = fault == StringFault::Kind::None || fault == StringFault::Kind::Sliding;
     if (mayMove && tightenBand(kPatientBand, route, keepsSides, path) == Rank::Minimum) return;
+    path.fault = m_band.findFault(m_scene->problem);
+}
+
+/** Where a band has passed through walls, which its nodes are too far apart to meet: laid round them, and watched. */
+void PathSearch::solveRoundWalls(const Route& route, bool keepsSides, PathSolution& path) {
+    m_band.layRoundWalls(*m_scene, route.waypoints);
+    path.report.bandLevel = 0;
+    for (const BandLevel& band : kBandLevels) {
+        ++path.report.bandLevel;
+        freeBand(tightenBand(band, route, keepsSides, path), route, keepsSides, path);
+        if (m_bestRank == Rank::Minimum) return;
+    }
     path.fault = m_band.findFault(m_scene->problem);
 }
 

@@ -68,6 +68,7 @@ private:
 
     void solveInserted(const Route& route, PathSolution& path);
     void solveAlongBand(const Route& route, bool keepsSides, PathSolution& path);
+    void solveRoundWalls(const Route& route, bool keepsSides, PathSolution& path);
     Rank tightenBand(const BandLevel& level, const Route& route, bool keepsSides, PathSolution& path);
     Rank freeBand(Rank rank, const Route& route, bool keepsSides, PathSolution& path);
     void acceptFault(PathSolution& path);
