@@ -9,6 +9,7 @@
 #include "fit_command.h"
 #include "run_command.h"
 #include "solve_command.h"
+#include "sweep/sweep_command.h"
 #include "tautline/models/extensions.h"
 #include "tautline/version.h"
 
@@ -33,12 +34,16 @@ int main(int argc, char** argv) {
     tautline::FitCommand fit;
     CLI::App* fitApp = app.add_subcommand("fit", "a smooth surface from a mesh, for a model to wrap over");
     fit.declare(*fitApp);
+    tautline::SweepCommand sweep;
+    CLI::App* sweepApp = app.add_subcommand("sweep", "many runs of a model with variations, and one table of them");
+    sweep.declare(*sweepApp);
     CLI11_PARSE(app, argc, argv);
     try {
         for (const std::filesystem::path& extension : extensions) tautline::models::loadExtension(extension);
         const bool isTerminal = isatty(STDOUT_FILENO) == 1;
         if (solveApp->parsed()) return solve.run(std::cout, isTerminal);
         if (fitApp->parsed()) return fit.run(std::cout);
+        if (sweepApp->parsed()) return sweep.run(std::cout, isTerminal);
         if (checkApp->parsed()) return check.run(std::cout, isTerminal);
         return run.run(std::cout, isTerminal);
     } catch (const std::exception& error) {

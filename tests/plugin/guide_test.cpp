@@ -42,6 +42,8 @@ std::set<std::string> readExamples() {
             const std::string text = readAll(entry.path());
             examples.insert(text.substr(text.find_first_not_of('\n', text.find('\n'))));
         }
+    for (const auto& entry : fs::directory_iterator(kRoot / "models"))  // which a command of the same page runs
+        if (entry.path().extension() == ".json") examples.insert(readAll(entry.path()));
     return examples;
 }
 
