@@ -2,6 +2,7 @@
 #include "solve_command.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 #include "study_tables.h"
 #include "study_watcher.h"
 #include "tautline/models/osim_reader.h"
+#include "tautline/models/parallel_study.h"
 #include "text_table.h"
 
 namespace tautline {
@@ -42,6 +44,47 @@ void printMotion(const std::filesystem::path& file, const Motion& motion, const 
     for (const std::string& note : motion.notes) out << "note: " << note << "\n";
 }
 
+/** The poses of a motion, or a single one, with the values that are given. */
+Motion placeFrames(Motion motion, const std::vector<CoordinateValue>& held) {
+    if (motion.poses.empty()) motion.poses.resize(1);
+    for (models::ModelPose& frame : motion.poses)
+        for (const CoordinateValue& given : held) {
+            frame.values[given.name] = given.value;
+            frame.speeds[given.name] = 0.0;
+        }
+    return motion;
+}
+
+/** On several threads. */
+void solveFrames(models::ParallelStudy& study, const std::vector<models::ModelPose>& frames, int numThreads,
+                 ProgressBar& bar, std::vector<models::PoseAnswer>& answers) {
+    std::atomic<int> numBegun{0};
+    const auto makePose = [&](int place) {
+        ++numBegun;
+        return frames[static_cast<std::size_t>(place)];
+    };
+    const auto showProgress = [&] {
+        bar.show(static_cast<double>(numBegun) / static_cast<double>(frames.size()));
+        return false;
+    };
+    study.solveMany(static_cast<int>(frames.size()), makePose, answers, {numThreads, showProgress});
+}
+
+/** One after the other, each shown to the watcher. */
+void watchFrames(models::PathStudy& study, const std::vector<models::ModelPose>& frames, StudyWatcher& watcher,
+                 ProgressBar& bar, std::vector<models::PoseAnswer>& answers) {
+    for (const models::ModelPose& frame : frames) {
+        answers.push_back(study.solve(frame, static_cast<int>(answers.size())));
+        watcher.watch(frame.time, answers.back());
+        bar.show(static_cast<double>(answers.size()) / static_cast<double>(frames.size()));
+    }
+}
+
+bool isSound(const models::PoseAnswer& answer) {
+    return answer.constraintFault.empty() && std::all_of(answer.paths.begin(), answer.paths.end(),
+                                                         [](const models::PathAnswer& path) { return path.isSound(); });
+}
+
 }  // namespace
 
 void SolveCommand::declare(CLI::App& app) {
@@ -51,6 +94,8 @@ void SolveCommand::declare(CLI::App& app) {
                   "value of a coordinate, NAME=VALUE in rad or m (30deg: degrees), over the motion's");
     addRepeatable(app, "--muscles", patterns, "only paths whose names match, such as 'rect_fem*'");
     app.add_option("--out", outFolder, "folder of the results, made if missing")->capture_default_str();
+    app.add_option("--threads", numThreads, "threads that share the frames; default: as many as there are cores")
+        ->check(CLI::Range(1, 1024));
     app.add_flag("--allow-degraded", allowsDegraded, "exit with 0 even if some paths are no verified shortest ones");
     page.declare(app, "the poses: model, paths, curves, statuses");
 }
@@ -61,35 +106,31 @@ int SolveCommand::run(std::ostream& out, bool isTerminal) const {
     if (names.empty()) throw std::runtime_error(modelFile.string() + ": the model has no paths");
     requireMatches(patterns, names, "--muscles");
     const std::vector<CoordinateValue> held = parseCoordinateValues(pose, "--pose", description);
-    Motion motion;
-    if (motionFile.empty())
-        motion.poses.resize(1);
-    else
-        motion = readMotion(motionFile, description, ignored);
-    for (models::ModelPose& frame : motion.poses)
-        for (const CoordinateValue& given : held) {
-            frame.values[given.name] = given.value;
-            frame.speeds[given.name] = 0.0;
-        }
+    const Motion motion =
+        placeFrames(motionFile.empty() ? Motion() : readMotion(motionFile, description, ignored), held);
     if (!page.report.empty()) requireReportAssets();
-    models::PathStudy study(description,
-                            [this](const std::string& name) { return patterns.empty() || matchesAny(name, patterns); });
+    const auto isWanted = [this](const std::string& name) { return patterns.empty() || matchesAny(name, patterns); };
+    models::ParallelStudy threads(description, isWanted);
+    const models::PathStudy& study = threads.getStudy();
     printModelSummary(description, out);
     printReadingNotes(description, out);
     if (!motionFile.empty()) printMotion(motionFile, motion, held, out);
-    std::optional<StudyWatcher> watcher;
-    if (!page.report.empty()) watcher.emplace(page, description, study, out);
-
     std::vector<double> times;
+    for (const models::ModelPose& frame : motion.poses) times.push_back(frame.time);
+    std::optional<models::PathStudy> watched;  // by one thread, for the page
+    std::optional<StudyWatcher> watcher;
+    if (!page.report.empty()) {
+        watched.emplace(description, isWanted);
+        watcher.emplace(page, description, *watched, out);
+    }
+
     std::vector<models::PoseAnswer> answers;
     ProgressBar bar(out, isTerminal);
     const auto begin = std::chrono::steady_clock::now();
-    for (const models::ModelPose& frame : motion.poses) {
-        times.push_back(frame.time);
-        answers.push_back(study.solve(frame, static_cast<int>(answers.size())));
-        if (watcher) watcher->watch(times.back(), answers.back());
-        bar.show(static_cast<double>(answers.size()) / static_cast<double>(motion.poses.size()));
-    }
+    if (watcher)
+        watchFrames(*watched, motion.poses, *watcher, bar, answers);
+    else
+        solveFrames(threads, motion.poses, numThreads, bar, answers);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     bar.clear();
 
@@ -105,13 +146,7 @@ int SolveCommand::run(std::ostream& out, bool isTerminal) const {
         << (outFolder / "coordinates.sto").string() << ", " << (outFolder / "statuses.csv").string() << "\n";
     if (watcher) watcher->finish(times, answers, out);
 
-    if (allowsDegraded) return 0;
-    for (const models::PoseAnswer& answer : answers) {
-        if (!answer.constraintFault.empty()) return 3;
-        for (const models::PathAnswer& path : answer.paths)
-            if (!path.isSound()) return 3;
-    }
-    return 0;
+    return allowsDegraded || std::all_of(answers.begin(), answers.end(), isSound) ? 0 : 3;
 }
 
 }  // namespace tautline

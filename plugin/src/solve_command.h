@@ -18,6 +18,7 @@ struct SolveCommand {
     std::vector<std::string> patterns;  ///< of paths; empty: all
     std::vector<std::string> ignored;   ///< elements of the model, and columns of the motion
     std::vector<std::string> settings;  ///< ELEMENT/FIELD=VALUE
+    int numThreads = 0;  ///< 0: as many as there are cores; with a page: one
     bool allowsDegraded = false;
     PageOptions page;
 

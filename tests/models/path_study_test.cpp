@@ -201,6 +201,16 @@ TEST(ParallelStudy, AnswersAreThoseOfOneStudyForAllNumbersOfThreads) {
     }
 }
 
+// Symptom until 2026-11-28: studies for further threads moved the first one away.
+TEST(ParallelStudy, TheStudyForNamesStaysWhereItIs) {
+    ParallelStudy study(readElbow());
+    const PathStudy& names = study.getStudy();
+    std::vector<PoseAnswer> answers;
+    study.solveMany(5 * kPosesPerBlock, [](int) { return ModelPose(); }, answers, {5, {}});
+    EXPECT_EQ(&study.getStudy(), &names);
+    EXPECT_EQ(names.getPaths().size(), answers.front().paths.size());
+}
+
 TEST(ParallelStudy, RefusesThePoseThatComesFirst) {
     ParallelStudy study(readElbow());
     const auto makePose = [](int i) {

@@ -56,6 +56,30 @@ TEST(SolveCommand, TakesDegreesAndRadiansAsTheHeaderSays) {
     }
 }
 
+TEST(SolveCommand, IsTheSameForAnyNumberOfThreads) {
+    std::string rows;
+    for (int i = 0; i < 300; ++i)
+        rows += toText(0.01 * i) + "\t" + toText(60 + 50 * std::sin(0.05 * i)) + "\t" +
+                toText(30 * std::cos(0.03 * i)) + "\n";
+    const auto motion = writeInput("threads.mot", makeMotion("elbow_flexion\tshoulder_flexion", rows, "inDegrees=yes"));
+    const auto solve = [&](const std::string& threads) {
+        const auto folder = makeFolder("solve_threads_" + threads);
+        EXPECT_EQ(runTautline("solve " + kElbow + " --motion " + motion.string() + " --threads " + threads + " --out " +
+                              folder.string())
+                      .exitCode,
+                  0);
+        return folder;
+    };
+    const auto one = solve("1");
+    for (const char* threads : {"2", "5"}) {
+        const auto several = solve(threads);
+        for (const char* file : {"paths.sto", "moment_arms.sto", "coordinates.sto", "statuses.csv"})
+            EXPECT_TRUE(readAll(one / file) == readAll(several / file)) << file << ", " << threads << " threads";
+    }
+    EXPECT_EQ(readStorage(one / "paths.sto").rows.size(), 300u);
+    EXPECT_EQ(runTautline("solve " + kElbow + " --threads 0").exitCode, 105);
+}
+
 TEST(SolveCommand, TakesSpeedsFromTheFileIfItHasThem) {
     const auto motion = writeInput("speeds.sto", makeMotion("elbow_flexion/value\telbow_flexion/speed",
                                                             "0\t0.5\t2\n1\t0.5\t-3\n", "inDegrees=no"));

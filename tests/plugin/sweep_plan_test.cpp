@@ -78,10 +78,10 @@ TEST(SweepPlan, MakesTheCommandLineOfARun) {
     const SweepPlan plan = readPlan(R"({"command": "solve",
         "options": {"muscles": ["a*", "b"], "gravity": [0, -9.8, 0], "allow-degraded": true, "all": false, "x": 1.5},
         "vary": [{"option": "pose", "name": "q", "values": [0.1]}, {"option": "motion", "values": ["walk.mot"]}]})");
-    const std::vector<std::string> expected{"solve",     "m.osim", "--muscles", "a*",       "--muscles",        "b",
-                                            "--gravity", "0",      "-9.8",      "0",        "--allow-degraded", "--x",
-                                            "1.5",       "--pose", "q=0.1",     "--motion", "walk.mot",         "--out",
-                                            "out/there"};
+    const std::vector<std::string> expected{
+        "solve",     "m.osim",   "--threads", "1",     "--muscles",        "a*",  "--muscles", "b",
+        "--gravity", "0",        "-9.8",      "0",     "--allow-degraded", "--x", "1.5",       "--pose",
+        "q=0.1",     "--motion", "walk.mot",  "--out", "out/there"};
     EXPECT_EQ(plan.makeArguments(0, "m.osim", "out/there"), expected);
 }
 

@@ -205,7 +205,9 @@ SweepPlan readSweepPlan(const std::filesystem::path& file) {
     JsonField document(json, file.string());
     SweepPlan plan;
     plan.command = document.has("command") ? document.require("command").getChoice({"run", "solve"}) : "run";
-    if (document.has("options")) plan.arguments = readOptions(document.require("options"));
+    if (plan.command == "solve") plan.arguments = {"--threads", "1"};  // runs are what is done side by side
+    if (document.has("options"))
+        for (const std::string& word : readOptions(document.require("options"))) plan.arguments.push_back(word);
     readRuns(document, plan);
     plan.table = readTable(document, plan.command);
     plan.keep = readKeep(document);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <deque>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ public:
     /** As of PathStudy. */
     explicit ParallelStudy(ModelDescription description, std::function<bool(const std::string&)> isWanted = nullptr);
 
-    /** For the names of paths and coordinates. */
+    /** For the names of paths and coordinates; valid as long as this. */
     const PathStudy& getStudy() const { return m_studies.front(); }
 
     /** @param makePose   of each place in the row; called by several threads at once
@@ -29,7 +30,7 @@ public:
 private:
     ModelDescription m_description;
     std::function<bool(const std::string&)> m_isWanted;
-    std::vector<PathStudy> m_studies;  ///< by worker; made once they are needed
+    std::deque<PathStudy> m_studies;  ///< by worker; made once they are needed, without moving the others
 };
 
 }  // namespace tautline::models
