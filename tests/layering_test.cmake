@@ -3,6 +3,9 @@
 # not name its license. The layers, each of which knows only those before it:
 #
 #   meshes, geodesics -> surfaces -> paths (wrapping_core), simbody_adapter, models, plugin; tests and bench know all.
+#
+# Within paths: problem -> equations -> contacts -> local -> search -> tracking. A public header, of which all stand in
+# one folder, belongs to where its source is.
 cmake_minimum_required(VERSION 3.25)
 set(failures "")
 set(checked 0)
@@ -29,6 +32,16 @@ no_line(${core}/include/tautline/geodesics MATCHES "${included}(tautline/)?(surf
 foreach(side include/tautline src)
     no_line(${core}/${side}/meshes MATCHES "${included}(tautline/)?(geodesics|surfaces|paths)/")
     no_line(${core}/${side}/surfaces MATCHES "${included}(tautline/)?paths/")
+endforeach()
+set(later problem equations contacts local search tracking)
+foreach(folder IN LISTS later)
+    list(REMOVE_ITEM later ${folder})
+    foreach(other IN LISTS later)
+        file(GLOB headers RELATIVE "${ROOT}/${core}/src/paths/${other}" "${ROOT}/${core}/src/paths/${other}/*.cpp")
+        list(TRANSFORM headers REPLACE "\\.cpp$" "[.]h")
+        list(JOIN headers "|" headers)
+        no_line(${core}/src/paths/${folder} MATCHES "${included}(paths/${other}/|tautline/paths/(${headers})\")")
+    endforeach()
 endforeach()
 no_line(simbody_adapter MATCHES "${included}tautline/models/")
 file(GLOB commands RELATIVE "${ROOT}/plugin/src" "${ROOT}/plugin/src/*.h")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Symmetric block-tridiagonal factorization against dense algebra. */
-#include "paths/block_ldlt.h"
+#include "paths/equations/block_ldlt.h"
 
 #include <gtest/gtest.h>
 

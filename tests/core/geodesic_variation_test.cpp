@@ -2,7 +2,7 @@
 /** Derivatives of a geodesic's end frames under the four natural variations against central differences. */
 #include <gtest/gtest.h>
 
-#include "paths/path_error.h"
+#include "paths/equations/path_error.h"
 #include "support/shapes.h"
 
 namespace tautline::testing {

@@ -2,7 +2,7 @@
 /** The introductory example of thesis Sec. 2.3.1, iterated by the core's geodesics and natural variations. */
 #include <gtest/gtest.h>
 
-#include "paths/path_error.h"
+#include "paths/equations/path_error.h"
 #include "tautline/surfaces/cylinder.h"
 
 namespace tautline {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The length, its derivatives along natural corrections, and its minimization over one contact set. */
-#include "paths/length_minimizer.h"
+#include "paths/local/length_minimizer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "paths/path_newton.h"
+#include "paths/local/path_newton.h"
 #include "support/random_chain.h"
 #include "support/weave_scene.h"
 #include "tautline/paths/path_verification.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Jacobian of the path error against central differences of it, on chains that mix all surfaces. */
-#include "paths/path_error.h"
+#include "paths/equations/path_error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Elimination of the path error's Jacobian against dense algebra. */
-#include "paths/path_jacobian.h"
+#include "paths/equations/path_jacobian.h"
 
 #include <gtest/gtest.h>
 

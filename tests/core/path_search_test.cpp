@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "paths/length_minimizer.h"
-#include "paths/second_variation.h"
+#include "paths/equations/second_variation.h"
+#include "paths/local/length_minimizer.h"
 #include "support/moving_scenes.h"
 #include "support/path_scene.h"
 #include "support/random.h"

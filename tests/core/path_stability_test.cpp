@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "paths/path_following.h"
+#include "paths/tracking/path_following.h"
 #include "tautline/surfaces/ellipsoid.h"
 #include "tautline/surfaces/sphere.h"
 

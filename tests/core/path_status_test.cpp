@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "paths/path_newton.h"
+#include "paths/local/path_newton.h"
 #include "support/path_scene.h"
 #include "tautline/paths/path_explanation.h"
 #include "tautline/paths/path_verification.h"

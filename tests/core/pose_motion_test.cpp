@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Screws, and the way of elements from one pose to another. */
-#include "paths/pose_motion.h"
+#include "paths/tracking/pose_motion.h"
 
 #include <gtest/gtest.h>
 

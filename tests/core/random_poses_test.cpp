@@ -10,7 +10,7 @@ and within a fixed count of shots, and what is no solution is explained. */
 #include <map>
 #include <utility>
 
-#include "paths/posed_problem.h"
+#include "paths/problem/posed_problem.h"
 #include "support/random.h"
 #include "support/random_scene.h"
 #include "tautline/paths/path_explanation.h"

@@ -7,8 +7,8 @@ arcs split, join, come and go. */
 #include <cmath>
 #include <cstdio>
 
-#include "paths/path_newton.h"
-#include "paths/touching_arcs.h"
+#include "paths/contacts/touching_arcs.h"
+#include "paths/local/path_newton.h"
 #include "support/path_scene.h"
 #include "support/planar_hull.h"
 #include "support/seeded_random.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "paths/threading.h"
+#include "paths/search/threading.h"
 #include "support/random.h"
 #include "support/seeded_random.h"
 #include "tautline/error.h"

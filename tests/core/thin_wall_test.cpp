@@ -5,7 +5,7 @@ from the inside to the outside. */
 
 #include <cmath>
 
-#include "paths/clear_course.h"
+#include "paths/search/clear_course.h"
 #include "support/path_scene.h"
 #include "support/random.h"
 #include "tautline/surfaces/function_surface.h"

@@ -2,7 +2,7 @@
 /** The weave against the mean lengths that peers.md gives for it: values computed by others. */
 #include <gtest/gtest.h>
 
-#include "paths/elastic_band.h"
+#include "paths/search/elastic_band.h"
 #include "support/weave_scene.h"
 #include "tautline/paths/path_kinematics.h"
 #include "tautline/paths/path_solver.h"

@@ -3,7 +3,7 @@
 /** Chains of random geodesics on shapes of all kinds, varied along their natural corrections for differences. */
 #include <cmath>
 
-#include "paths/path_error.h"
+#include "paths/equations/path_error.h"
 #include "support/shapes.h"
 #include "tautline/paths/path_solver.h"
 
