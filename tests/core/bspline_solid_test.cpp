@@ -150,6 +150,11 @@ TEST(BSplineSolid, RefusesGridsThatDoNotHangTogether) {
     expectRefusal([](SolidGrid& grid) { grid.size = kNaN; }, "size must be positive and finite, but is nan");
     expectRefusal([](SolidGrid& grid) { grid.blendEnd = grid.blendBegin; }, "must end above it");
     expectRefusal([](SolidGrid& grid) { grid.origin.x() = kInfinity; }, "origins must be finite");
+    // Squares of such lengths are no numbers: 2026-11-28, heights that were none.
+    expectRefusal([](SolidGrid& grid) { grid.farSpacing = 1e200; }, "coarse spacing must lie between");
+    expectRefusal([](SolidGrid& grid) { grid.spacing = 1e-200; }, "spacing must lie between");
+    expectRefusal([](SolidGrid& grid) { grid.farOrigin.y() = -1e200; }, "origins must be finite, and no farther");
+    expectRefusal([](SolidGrid& grid) { grid.controls[5] = 1e35f; }, "control value 5 is 1.00000004");
     expectRefusal([](SolidGrid& grid) { grid.numBricks[1] = 0; }, "bricks along an axis, got 0");
     expectRefusal([](SolidGrid& grid) { grid.numBricks[1] = 2000000; }, "bricks along an axis, got 2000000");
     expectRefusal([](SolidGrid& grid) { grid.bricks.pop_back(); }, "bricks, got");

@@ -122,6 +122,19 @@ TEST(MeshRepair, TwoHolesThatTouchAtAPointAreTwo) {
     EXPECT_TRUE(isClosed(repaired.mesh));
 }
 
+// 2026-11-28: a fit of such a mesh was refused for a width that is "-nan".
+TEST(MeshRepair, RefusesPointsSoFarAwayThatAreasAreNoNumbers) {
+    TriangleMesh mesh = testing::makeBallMesh(0);
+    for (Vector3& point : mesh.points) point *= 1e200;
+    try {
+        repairMesh(mesh);
+        ADD_FAILURE() << "not refused";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("no farther than 1e+30 m from the origin"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(MeshRepair, RefusesAMeshWithoutArea) {
     TriangleMesh line;
     line.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};

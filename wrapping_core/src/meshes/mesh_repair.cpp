@@ -14,6 +14,7 @@ using Triangle = std::array<int, 3>;
 using Edge = std::pair<int, int>;
 
 constexpr double kSamePlace = 1e-9;  ///< of the box's diagonal: half the digits of a float in files are far above it
+constexpr double kFarthest = 1e30;   ///< [m]: powers of it, as they stand in areas and curvatures, are numbers
 constexpr double kNoArea = 1e-12;    ///< double area of a triangle over its longest edge squared
 
 Edge sortEdge(int a, int b) {
@@ -196,6 +197,9 @@ void closeHoles(RepairedMesh& repaired) {
 
 RepairedMesh repairMesh(const TriangleMesh& mesh) {
     requireMesh(mesh);
+    for (const Vector3& point : mesh.points)
+        require(point.cwiseAbs().maxCoeff() <= kFarthest, "mesh: points must be no farther than ", kFarthest,
+                " m from the origin, but one is (", point.transpose(), ")");
     RepairedMesh repaired;
     repaired.mesh = mesh;
     mergePoints(repaired);

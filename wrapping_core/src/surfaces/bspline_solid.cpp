@@ -15,7 +15,8 @@ template class ImplicitShape<BSplineSolid>;
 namespace {
 
 constexpr int kMostAlongAxis = 1 << 20;  ///< bricks or coarse control values: products of three fit 64 bits
-constexpr double kLeastSlope = 0.7;      ///< see calcHeightAndNormal()
+constexpr double kShortest = 1e-30, kLongest = 1e30;  ///< of what a grid may have [m]
+constexpr double kLeastSlope = 0.7;                   ///< see calcHeightAndNormal()
 
 /** A number that goes from 0 to 1 with t, with its derivatives by t: twice continuously differentiable. */
 struct Step {
@@ -94,21 +95,30 @@ void requireCounts(const std::array<int, 3>& counts, int least, std::size_t has,
     require(has == product, "B-spline solid: needs ", product, " ", what, ", got ", has);
 }
 
-void requireFinite(const std::vector<float>& controls, float least, const char* what) {
+void requireHeights(const std::vector<float>& controls, double least, const char* what) {
     for (std::size_t i = 0; i < controls.size(); ++i)
-        require(std::isfinite(controls[i]) && controls[i] >= least, "B-spline solid: ", what, " ", i, " is ",
+        require(std::abs(controls[i]) <= kLongest && controls[i] >= least, "B-spline solid: ", what, " ", i, " is ",
                 controls[i]);
 }
 
+/** A length whose powers, as they stand in curvatures, are numbers. */
+void requireUsable(double length, const char* what) {
+    requireLength(length, what);
+    require(length >= kShortest && length <= kLongest, what, " must lie between ", kShortest, " and ", kLongest,
+            " m, but is ", length);
+}
+
 void requireGrid(const SolidGrid& grid) {
-    requireLength(grid.spacing, "B-spline solid: spacing");
-    requireLength(grid.farSpacing, "B-spline solid: coarse spacing");
-    requireLength(grid.size, "B-spline solid: size");
-    requireLength(grid.width, "B-spline solid: width");
-    requireLength(grid.blendBegin, "B-spline solid: height where blending begins");
+    requireUsable(grid.spacing, "B-spline solid: spacing");
+    requireUsable(grid.farSpacing, "B-spline solid: coarse spacing");
+    requireUsable(grid.size, "B-spline solid: size");
+    requireUsable(grid.width, "B-spline solid: width");
+    requireUsable(grid.blendBegin, "B-spline solid: height where blending begins");
     require(std::isfinite(grid.blendEnd) && grid.blendEnd > grid.blendBegin, "B-spline solid: blending from height ",
             grid.blendBegin, " must end above it, but ends at ", grid.blendEnd);
-    require(grid.origin.allFinite() && grid.farOrigin.allFinite(), "B-spline solid: origins must be finite");
+    requireUsable(grid.blendEnd - grid.blendBegin, "B-spline solid: range of heights over which it is blended");
+    require(grid.origin.cwiseAbs().maxCoeff() <= kLongest && grid.farOrigin.cwiseAbs().maxCoeff() <= kLongest,
+            "B-spline solid: origins must be finite, and no farther away than ", kLongest, " m");
     requireCounts(grid.numBricks, 1, grid.bricks.size(), "bricks");
     // Five cells: two margins and something between.
     requireCounts(grid.numFarControls, 8, grid.farControls.size(), "coarse control values");
@@ -118,8 +128,8 @@ void requireGrid(const SolidGrid& grid) {
     for (std::size_t i = 0; i < grid.bricks.size(); ++i)
         require(grid.bricks[i] >= SolidGrid::kInside && grid.bricks[i] < numFilled, "B-spline solid: brick ", i,
                 " names control values ", grid.bricks[i], ", but there are ", numFilled);
-    requireFinite(grid.controls, -std::numeric_limits<float>::max(), "control value");
-    requireFinite(grid.farControls, 0, "coarse control value");
+    requireHeights(grid.controls, -kLongest, "control value");
+    requireHeights(grid.farControls, 0, "coarse control value");
 }
 
 }  // namespace

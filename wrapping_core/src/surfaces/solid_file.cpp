@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "surfaces/checksum.h"
 #include "tautline/error.h"
 
 namespace tautline {
@@ -11,19 +12,6 @@ namespace {
 
 constexpr std::string_view kMagic = "TautSld\n";
 constexpr std::uint32_t kVersion = 1, kByteOrder = 0x01020304;
-
-/** FNV-1a over words of eight bytes, the last one filled up with zeros: each step is a bijection of the sum so far, so
-that a change within one word always shows. */
-std::uint64_t calcChecksum(std::string_view bytes) {
-    std::uint64_t sum = 0xcbf29ce484222325u;
-    for (std::size_t at = 0; at < bytes.size(); at += sizeof(sum)) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, bytes.data() + at, std::min(sizeof(word), bytes.size() - at));
-        sum = (sum ^ word) * 0x100000001b3u;
-        sum ^= sum >> 29;  // or the high bits of words would only ever meet the high bits of the sum
-    }
-    return sum;
-}
 
 /** Everything of a grid that has a fixed length, in the order of the file. */
 template <class Grid, class Function>
