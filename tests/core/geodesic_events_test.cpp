@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/random.h"
 #include "support/surface_cases.h"
 
 namespace tautline {
@@ -161,6 +162,30 @@ TEST(LargestNormalCurvature, IsThatOfManyPlacesAlongAnArcOverTheInnerEquator) {
                     EXPECT_NEAR(found, calcLargestOfMany(torus, start), 2e-8) << R << " " << excess;
                     EXPECT_GT(found, 0);
                 }
+}
+
+// Short arcs are looked at along a curve through their ends: exact where pressure nearly vanishes, an estimate
+// elsewhere.
+TEST(LargestNormalCurvature, OfShortArcsIsThatOfManyPlacesOrAnEstimateWhereTheyPress) {
+    testing::Random random(20261128);
+    const Torus implicit(2, 1);
+    const ParametricTorus parametric(2, 1);
+    int numNearZero = 0;
+    for (int i = 0; i < 30; ++i)
+        for (const Surface* torus :
+             {static_cast<const Surface*>(&implicit), static_cast<const Surface*>(&parametric)}) {
+            const double u = random.uniform(-kPi, kPi), v = random.uniform(-kPi, kPi);
+            const double rho = 2 + std::cos(v);
+            const Vector3 p(rho * std::cos(u), rho * std::sin(u), std::sin(v));
+            const GeodesicStart start = makeStart(*torus, p, random.unitVector(), random.uniform(0.05, 0.95));
+            ShotGeodesic arc;
+            torus->shootGeodesic(start, {}, arc);
+            const double found = calcLargestNormalCurvature(*torus, start, arc);
+            const double many = calcLargestOfMany(*torus, start);
+            EXPECT_NEAR(found, many, many > -0.04 ? 2e-8 : 0.02) << "arc " << i;
+            numNearZero += many > -0.04;
+        }
+    EXPECT_GT(numNearZero, 10);
 }
 
 TEST(PressureChanges, DoNotExistWhereCurvatureKeepsItsSign) {

@@ -182,6 +182,60 @@ double refinePeak(const Surface& surface, const GeodesicStart& start, double spa
     return here;
 }
 
+/** Normal curvatures along an arc at places of equal spacing, ends included. Of an arc that turns little they are those
+of the curve of fifth order that has the ends of the arc, their tangents and their curvatures, on the surface: one
+evaluation or two in place of a shot. */
+class CurvatureSamples {
+public:
+    CurvatureSamples(const Surface& surface, const GeodesicStart& start, const ShotGeodesic& geodesic, int pieces)
+        : m_surface(surface),
+          m_geodesic(geodesic),
+          m_pieces(pieces),
+          m_point(start.point),
+          m_isShort(turnsLittle(surface, start.length, geodesic)),
+          m_walker(surface, start, kRoughlyAlong, pieces) {}
+
+    /** Of the next place, the first one after the start. */
+    double next() {
+        if (++m_at == m_pieces) return m_geodesic.Q.kappaN;
+        return m_isShort ? calcOnCurve(static_cast<double>(m_at) / m_pieces) : m_walker.next().Q.kappaN;
+    }
+
+private:
+    static bool turnsLittle(const Surface& surface, double length, const ShotGeodesic& geodesic) {
+        constexpr double kLittle = 1;  // [rad]; the curve is off by less than a thousandth of a radius
+        double curvature = 1 / surface.getSize();
+        for (const DarbouxFrame* end : {&geodesic.P, &geodesic.Q})
+            curvature = std::max({curvature, std::abs(end->kappaN), std::abs(end->kappaB), std::abs(end->tauG)});
+        return std::abs(length) > 0 && std::abs(length) * curvature < kLittle;
+    }
+
+    /** Hermite interpolation. @param u   part of the length */
+    double calcOnCurve(double u) {
+        const double l = m_geodesic.length, w = 1 - u;
+        Vector3 x = Vector3::Zero(), slope = Vector3::Zero();  // slope: by u, but for its part along N
+        // With what belongs to one end, at a distance a from it and b from the other; x' there is turn * l * t.
+        const auto add = [&](const DarbouxFrame& end, double a, double b, double turn) {
+            x += b * b * b *
+                 ((1 + 3 * a + 6 * a * a) * end.x + turn * l * a * (1 + 3 * a) * end.t +
+                  0.5 * l * l * a * a * end.kappaN * end.N);
+            slope += b * b * (-30 * turn * a * a * end.x + l * (1 - 3 * a) * (1 + 5 * a) * end.t);
+        };
+        add(m_geodesic.P, u, w, 1);
+        add(m_geodesic.Q, w, u, -1);
+        m_point = m_surface.calcDisplacedPoint(m_point, x - m_point.p);
+        return m_surface.calcFrame(m_point, slope).kappaN;
+    }
+
+    const Surface& m_surface;
+    const ShotGeodesic& m_geodesic;
+    const int m_pieces;
+    int m_at = 0;
+    SurfacePoint m_point;
+    bool m_isShort;
+    ArcWalker m_walker;
+};
+
 }  // namespace
 
 std::optional<GeodesicPlace> findConjugatePoint(const Surface& surface, const GeodesicStart& start,
@@ -228,12 +282,12 @@ double calcLargestNormalCurvature(const Surface& surface, const GeodesicStart& s
     const double largest = std::max({geodesic.P.kappaN, geodesic.Q.kappaN, geodesic.maxKappaN});
     const int pieces = 2 + static_cast<int>(std::min(500.0, 5 * std::abs(start.length) / surface.getSize()));
     const double spacing = start.length / pieces;
-    ArcWalker walker(surface, start, kAlongArc, pieces);
+    CurvatureSamples samples(surface, start, geodesic, pieces);
     Peak peak =
         geodesic.P.kappaN > geodesic.Q.kappaN ? Peak{geodesic.P.kappaN, 0.0} : Peak{geodesic.Q.kappaN, start.length};
-    double before = geodesic.P.kappaN, here = walker.next().Q.kappaN;
+    double before = geodesic.P.kappaN, here = samples.next();
     for (int i = 1; i < pieces; ++i) {
-        const double after = i + 1 < pieces ? walker.next().Q.kappaN : geodesic.Q.kappaN;
+        const double after = samples.next();
         const Peak vertex = findVertex(before, here, after);
         if (vertex.value > peak.value) peak = {vertex.value, (i + vertex.at) * spacing};
         before = here, here = after;
