@@ -64,10 +64,11 @@ std::vector<std::string> readOptions(JsonField field) {
         } else if (!value.get().is_array()) {
             arguments.insert(arguments.end(), {option, value.getText()});
         } else {  // words one by one, numbers together
-            const std::vector<JsonField> items = value.getItems();
-            for (const JsonField& item : items) {
-                if (item.get().is_string() || arguments.empty() || &item == &items.front()) arguments.push_back(option);
+            bool isFirst = true;
+            for (const JsonField& item : value.getItems()) {
+                if (isFirst || item.get().is_string()) arguments.push_back(option);
                 arguments.push_back(item.getText());
+                isFirst = false;
             }
         }
     }
