@@ -6,6 +6,7 @@
 
 #include "patch_region.h"
 #include "tautline/error.h"
+#include "tautline/meshes/close_gaps.h"
 #include "tautline/meshes/mesh_repair.h"
 #include "tautline/models/mesh_file.h"
 #include "tautline/surfaces/patch_fit.h"
@@ -127,6 +128,9 @@ void FitCommand::declare(CLI::App& app) {
     bone->excludes(sheet);
     app.add_option("--width", width, "of the smoothing in m: its standard deviation (default: from the mesh)");
     app.add_option("--grid", spacing, "width of the grid's cells in m (default: 1.5 widths)");
+    CLI::Option* close =
+        app.add_option("--close", gap, "first close gaps narrower than this in m, as between the ribs of a chest");
+    close->excludes(sheet);
     app.add_option("--toward", toward, "X Y Z: the direction that the patch faces (default: across the mesh)")
         ->expected(3);
     app.add_option("--box", box, "X0 X1 Y0 Y1 Z0 Z1 in m: only what lies between them is fitted by the patch")
@@ -149,7 +153,9 @@ int FitCommand::run(std::ostream& out) const {
 }
 
 void FitCommand::fitBone(const TriangleMesh& mesh, std::ostream& out) const {
-    const SolidFit fit = fitSolid(mesh, {width, spacing});
+    require(gap >= 0, "--close is the width of gaps in m, but is ", gap);
+    const SolidFit fit = fitSolid(gap > 0 ? closeGaps(mesh, gap) : mesh, {width, spacing});
+    if (gap > 0) out << "gaps closed: narrower than " << inMillimeters(gap) << "\n";
     printFit(fit, out);
     if (outFile.has_parent_path()) std::filesystem::create_directories(outFile.parent_path());
     writeSolidFile(fit.solid, outFile);

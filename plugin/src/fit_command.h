@@ -15,6 +15,7 @@ struct FitCommand {
     std::filesystem::path meshFile, outFile;
     bool isBone = false;
     double width = 0, spacing = 0;  ///< [m]; 0: chosen
+    double gap = 0;                 ///< [m]: those narrower are closed first; 0: none
     std::string patch;              ///< kind: an order, or numbers of control points such as 8x6; empty: a bone
     std::vector<double> toward;     ///< direction that the patch faces; empty: found
     std::vector<double> box;        ///< that holds the patch: least and greatest x, y, z [m]; empty: all of the mesh

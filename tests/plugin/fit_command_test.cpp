@@ -8,15 +8,25 @@
 namespace tautline::testing {
 namespace {
 
-/** The bone of the benchmarks, in millimeters. */
-std::filesystem::path writeBone() {
+constexpr double kApart = 0.032;  ///< of the axes of bones side by side [m]
+
+/** Some of the benchmarks' bones side by side along y, in millimeters. */
+std::filesystem::path writeBones(int count) {
     std::ostringstream text;
     text.precision(9);
     const TriangleMesh mesh = makeBoneMesh();
-    for (const Vector3& p : mesh.points)
-        text << "v " << 1000 * p.x() << ' ' << 1000 * p.y() << ' ' << 1000 * p.z() << '\n';
-    for (const auto& [a, b, c] : mesh.triangles) text << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
-    return writeInput("bone.obj", text.str());
+    for (int i = 0; i < count; ++i)
+        for (const Vector3& p : mesh.points)
+            text << "v " << 1000 * p.x() << ' ' << 1000 * (p.y() + i * kApart) << ' ' << 1000 * p.z() << '\n';
+    const int step = static_cast<int>(mesh.points.size());
+    for (int i = 0; i < count; ++i)
+        for (const auto& [a, b, c] : mesh.triangles)
+            text << "f " << a + 1 + i * step << ' ' << b + 1 + i * step << ' ' << c + 1 + i * step << '\n';
+    return writeInput(count == 1 ? "bone.obj" : "bones.obj", text.str());
+}
+
+std::filesystem::path writeBone() {
+    return writeBones(1);
 }
 
 /** A spring from ground over the bone, which lies in ground, to a body that turns about z. */
@@ -66,6 +76,19 @@ TEST(FitCommand, WritesASolidAndTheElementThatAModelNeeds) {
                  length = first[findColumn(paths, "/forceset/spring|length")];
     EXPECT_GT(length, straight + 1e-4);
     EXPECT_LT(length, straight + 0.02);
+}
+
+TEST(FitCommand, ClosesGapsBetweenBonesSideBySide) {
+    const std::filesystem::path bones = writeBones(2), solid = bones.parent_path() / "tautline_closed.solid";
+    const std::string command = "fit " + bones.string() + " --bone --unit 0.001 --width 0.003 --out " + solid.string();
+    ASSERT_EQ(runTautline(command).exitCode, 0);
+    const Vector3 between(0, kApart / 2, 0);
+    EXPECT_GT(readSolidFile(solid).calcHeight(between), 2e-3);
+    const Outcome closed = runTautline(command + " --close 0.04");
+    ASSERT_EQ(closed.exitCode, 0) << closed.text;
+    EXPECT_TRUE(closed.has("gaps closed: narrower than 40 mm")) << closed.text;
+    EXPECT_LT(readSolidFile(solid).calcHeight(between), -2e-3);
+    EXPECT_TRUE(runTautline(command + " --close -1").has("--close is the width of gaps in m, but is -1"));
 }
 
 TEST(FitCommand, RefusesWhatItCannotFit) {
