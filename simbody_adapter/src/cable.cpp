@@ -170,6 +170,10 @@ void Cable::setSurface(CableElementIndex obstacle, std::shared_ptr<const Surface
     upd().setElement(obstacle, std::move(changed));
 }
 
+void Cable::setSurface(CableElementIndex obstacle, const std::shared_ptr<const SimTK::ContactGeometry>& geometry) {
+    setSurface(obstacle, geometry ? makeSurface(*geometry) : nullptr);
+}
+
 void Cable::setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S) {
     setHint(obstacle, toStartHint(hint_S));
 }
@@ -378,13 +382,8 @@ bool Cable::getContactFrames(const State& state, CableElementIndex obstacle, Sim
                              SimTK::Transform& X_GQ, int arc) const {
     const ContactArc* const found = get().findArc(state, obstacle, arc, "Cable::getContactFrames()");
     if (!found) return false;
-    const Pose& X_GS = get().getPose(state).X_GE[obstacle];
-    const auto calcFrame = [&](const DarbouxFrame& frame) {
-        Matrix3 R_SP;
-        R_SP << frame.t, frame.N, frame.B;
-        return toTransform(X_GS * Pose(R_SP, frame.x));
-    };
-    X_GP = calcFrame(found->geodesic.P), X_GQ = calcFrame(found->geodesic.Q);
+    X_GP = get().calcContactFrame(state, obstacle, found->geodesic.P);
+    X_GQ = get().calcContactFrame(state, obstacle, found->geodesic.Q);
     return true;
 }
 
@@ -433,6 +432,11 @@ std::vector<SimTK::Vec3> Cable::calcResampledPoints(const State& state, int coun
 std::vector<SimTK::Vec3> Cable::calcResampledArc(const State& state, CableElementIndex obstacle, int count,
                                                  int arc) const {
     return get().calcResampledArc(state, obstacle, count, arc);
+}
+
+std::vector<SimTK::Transform> Cable::calcResampledArcFrames(const State& state, CableElementIndex obstacle, int count,
+                                                            int arc) const {
+    return get().calcResampledArcFrames(state, obstacle, count, arc, "Cable::calcResampledArcFrames()");
 }
 
 void Cable::applyBodyForces(const State& state, Real tension, SimTK::Vector_<SpatialVec>& bodyForces) const {

@@ -261,17 +261,38 @@ const ContactArc* CableImpl::findArc(const State& state, CableElementIndex obsta
     return arc < contact.getNumArcs() ? &contact.getArc(arc) : nullptr;
 }
 
-std::vector<SimTK::Vec3> CableImpl::calcResampledArc(const State& state, CableElementIndex obstacle, int count,
-                                                     int arc) const {
-    const ContactArc* const found = findArc(state, obstacle, arc, "Cable::calcResampledArc()");
+std::vector<SimTK::Transform> CableImpl::calcResampledArcFrames(const State& state, CableElementIndex obstacle,
+                                                                int count, int arc, const char* method) const {
+    const ContactArc* const found = findArc(state, obstacle, arc, method);
     require(count >= 2, "cable '", m_name, "': an arc is resampled to at least 2 points, not to ", count);
     require(found, "cable '", m_name, "': obstacle '", m_elements[obstacle].name, "' is not touched in an arc ", arc,
             " that could be resampled");
-    std::vector<Vector3> arc_S;
-    sampleGeodesic(*m_elements[obstacle].surface, found->start, m_options.geodesics, count, arc_S);
+    std::vector<SimTK::Transform> frames_G{calcContactFrame(state, obstacle, found->geodesic.P)};
+    GeodesicStart part = found->start;
+    part.length /= count - 1;
+    for (int i = 1; i < count; ++i) {
+        ShotGeodesic piece;
+        m_elements[obstacle].surface->shootGeodesic(part, m_options.geodesics, piece);
+        frames_G.push_back(calcContactFrame(state, obstacle, piece.Q));
+        part.point = piece.endPoint, part.tangent = piece.Q.t;
+    }
+    return frames_G;
+}
+
+std::vector<SimTK::Vec3> CableImpl::calcResampledArc(const State& state, CableElementIndex obstacle, int count,
+                                                     int arc) const {
     std::vector<SimTK::Vec3> points_G;
-    for (const Vector3& p_S : arc_S) points_G.push_back(toSimTK(getPose(state).X_GE[obstacle] * p_S));
+    for (const SimTK::Transform& X_GC :
+         calcResampledArcFrames(state, obstacle, count, arc, "Cable::calcResampledArc()"))
+        points_G.push_back(X_GC.p());
     return points_G;
+}
+
+SimTK::Transform CableImpl::calcContactFrame(const State& state, CableElementIndex obstacle,
+                                             const DarbouxFrame& frame_S) const {
+    Matrix3 R_S;
+    R_S << frame_S.t, frame_S.N, frame_S.B;
+    return toTransform(getPose(state).X_GE[obstacle] * Pose(R_S, frame_S.x));
 }
 
 std::vector<SimTK::Vec3> CableImpl::calcResampledPoints(const State& state, int count) const {

@@ -67,6 +67,12 @@ public:
     const ContactArc* findArc(const SimTK::State& state, CableElementIndex obstacle, int arc, const char* method) const;
     std::vector<SimTK::Vec3> calcResampledArc(const SimTK::State& state, CableElementIndex obstacle, int count,
                                               int arc) const;
+    /** @param method   of the API, for messages */
+    std::vector<SimTK::Transform> calcResampledArcFrames(const SimTK::State& state, CableElementIndex obstacle,
+                                                         int count, int arc, const char* method) const;
+    /** A trihedron on an obstacle, in ground: x along the path, y the outward normal. */
+    SimTK::Transform calcContactFrame(const SimTK::State& state, CableElementIndex obstacle,
+                                      const DarbouxFrame& frame_S) const;
     SimTK::Real getLengthRate(const SimTK::State& state) const;
     SimTK::Real getLengthAccelerationBias(const SimTK::State& state) const;
     SimTK::Real calcWitness(const SimTK::State& state, CableElementIndex obstacle) const;

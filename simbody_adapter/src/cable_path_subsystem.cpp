@@ -147,7 +147,8 @@ CablePathSubsystemImpl* CablePathSubsystemImpl::cloneImpl() const {
 
 /** Cables with the same options share their workspaces. */
 int CablePathSubsystemImpl::realizeSubsystemTopologyImpl(State& state) const {
-    auto& self = const_cast<CablePathSubsystemImpl&>(*this);  // the topology is what Simbody caches in the System itself
+    auto& self =
+        const_cast<CablePathSubsystemImpl&>(*this);  // the topology is what Simbody caches in the System itself
     self.m_matter = &getMultibodySystem().getMatterSubsystem();
     self.m_workspaces.clear();
     std::vector<CableMode> modes;
@@ -247,8 +248,8 @@ void CablePathSubsystemImpl::settle(State& state) const {
 }
 
 /** Simbody asks at each stage for what is known then. */
-int CablePathSubsystemImpl::calcDecorativeGeometryAndAppendImpl(const State& state, Stage stage,
-                                                            SimTK::Array_<SimTK::DecorativeGeometry>& geometry) const {
+int CablePathSubsystemImpl::calcDecorativeGeometryAndAppendImpl(
+    const State& state, Stage stage, SimTK::Array_<SimTK::DecorativeGeometry>& geometry) const {
     if (!m_showsDecorations || stage != Stage::Position) return 0;
     // The System's own handle is a plain Subsystem; ours adds no data to it.
     if (!m_decorations)
@@ -264,9 +265,9 @@ void CablePathSubsystemImpl::countStep(const State& state) const {
         if (!cable->isDisabled(state)) cable->countStep(state);
 }
 
-void CablePathSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause cause, const SimTK::Array_<SimTK::EventId>&,
-                                          const SimTK::HandleEventsOptions&,
-                                          SimTK::HandleEventsResults& results) const {
+void CablePathSubsystemImpl::handleEventsImpl(State& state, SimTK::Event::Cause cause,
+                                              const SimTK::Array_<SimTK::EventId>&, const SimTK::HandleEventsOptions&,
+                                              SimTK::HandleEventsResults& results) const {
     if (cause != SimTK::Event::Cause::Initialization) return;
     getSystem().realize(state, Stage::Position);
     // All paths first: each change of the State below would have the free ones solved anew.

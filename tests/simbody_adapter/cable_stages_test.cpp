@@ -67,6 +67,7 @@ std::map<std::string, Query> makePositionQueries(const MechanismScene& scene) {
             {"Cable::calcInsertionTangent()", [=](const State& s) { cable.calcInsertionTangent(s); }},
             {"Cable::calcResampledPoints()", [=](const State& s) { cable.calcResampledPoints(s, 5); }},
             {"Cable::calcResampledArc()", [=](const State& s) { cable.calcResampledArc(s, sphere, 5); }},
+            {"Cable::calcResampledArcFrames()", [=](const State& s) { cable.calcResampledArcFrames(s, sphere, 5); }},
             {"Cable::calcUnitForceAboutBodyOrigin()",
              [=](const State& s) { cable.calcUnitForceAboutBodyOrigin(s, point); }},
             {"Cable::calcUnitForceAboutElementOrigin()",

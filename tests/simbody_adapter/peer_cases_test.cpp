@@ -2,6 +2,7 @@
 /** What the tests and examples of Simbody's CableSpan and of OpenSim's Scholz2015GeometryPath have in them, built anew
 from their dimensions: each answer by a closed form, by statics, or by differences. The chain of quarter circles is in
 quarter_circles_test.cpp, the examples that move in peer_motions_test.cpp. */
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 
@@ -220,6 +221,7 @@ struct RowOfAllShapes : BareScene {
     }
     void add(const Transform& X_GS, const std::shared_ptr<const Geometry>& shape, const Vec3& hint_S) {
         cable.addObstacle(SimTK::GroundIndex, X_GS, shape, hint_S);
+        shapes.push_back(shape);
     }
 
     void moveTo(Real angle) {
@@ -241,7 +243,72 @@ struct RowOfAllShapes : BareScene {
     MobilizedBody::Translation origin, eyelet, end;
     Cable cable;
     State state;
+    std::vector<std::shared_ptr<const Geometry>> shapes;  ///< of the obstacles, in order
 };
+
+/** A point that slides freely over Simbody's own surface, in the surface's frame: what it does is a geodesic. */
+class FreeSlide {
+public:
+    FreeSlide(const Geometry& shape, const Vec3& point, const Vec3& tangent)
+        : m_shape(shape), m_x(point), m_t(tangent) {}
+
+    /** By the classic method of fourth order. */
+    void advance(Real length) {
+        constexpr int kSteps = 400;
+        const Real h = length / kSteps;
+        for (int i = 0; i < kSteps; ++i) {
+            const Vec3 a1 = calcAcceleration(m_x, m_t);
+            const Vec3 t2 = m_t + h / 2 * a1, a2 = calcAcceleration(m_x + h / 2 * m_t, t2);
+            const Vec3 t3 = m_t + h / 2 * a2, a3 = calcAcceleration(m_x + h / 2 * t2, t3);
+            const Vec3 t4 = m_t + h * a3, a4 = calcAcceleration(m_x + h * t3, t4);
+            m_x += h / 6 * (m_t + 2 * t2 + 2 * t3 + t4);
+            m_t += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+        }
+    }
+    const Vec3& getPoint() const { return m_x; }
+    const Vec3& getTangent() const { return m_t; }
+    /** Outward: the shape's function is positive inside. */
+    Vec3 calcNormal() const { return -m_shape.calcSurfaceGradient(m_x).normalize(); }
+
+private:
+    /** That which keeps the function of the surface at zero: across it, f'' = t . H t + g . a = 0. */
+    Vec3 calcAcceleration(const Vec3& x, const Vec3& t) const {
+        const Vec3 g = m_shape.calcSurfaceGradient(x);
+        return -(~t * m_shape.calcSurfaceHessian(x) * t) / (~g * g) * g;
+    }
+
+    const Geometry& m_shape;
+    Vec3 m_x, m_t;
+};
+
+TEST(PeerCases, FramesAlongArcsAreThoseOfFreeSlides) {
+    RowOfAllShapes row;
+    constexpr int kPoints = 6;
+    std::vector<int> compared(row.shapes.size());
+    Real worst = 0;
+    for (const Real angle : {0.0, 0.4, 1.2, 2.5, 4.1, 5.6}) {
+        row.moveTo(angle);
+        for (int o = 0; o < row.cable.getNumObstacles(); ++o) {
+            const CableElementIndex obstacle = row.cable.getObstacle(o);
+            if (!row.cable.isTouched(row.state, obstacle)) continue;
+            SCOPED_TRACE(std::to_string(angle) + ", " + row.cable.getElementName(obstacle));
+            const Transform X_GS = row.cable.getElementFrame(obstacle);  // on ground
+            const std::vector<Transform> frames = row.cable.calcResampledArcFrames(row.state, obstacle, kPoints);
+            const Real length = row.cable.getSolution(row.state).contacts[obstacle].geodesic.length;
+            FreeSlide slide(*row.shapes[o], ~X_GS * frames[0].p(), ~X_GS.R() * frames[0].x());
+            for (const Transform& frame : frames) {
+                if (&frame != &frames.front()) slide.advance(length / (kPoints - 1));
+                const Vec3 tangent = X_GS.R() * slide.getTangent(), normal = X_GS.R() * slide.calcNormal();
+                worst = std::max({worst, (frame.p() - X_GS * slide.getPoint()).norm(), (frame.x() - tangent).norm(),
+                                  (frame.y() - normal).norm(), (frame.z() - tangent % normal).norm()});
+            }
+            ++compared[o];
+        }
+    }
+    std::printf("[measured] frames against free slides %.1e\n", worst);
+    EXPECT_LT(worst, 1e-7);
+    EXPECT_TRUE(std::all_of(compared.begin(), compared.end(), [](int count) { return count > 0; }));
+}
 
 TEST(PeerCases, ARowOfAllShapesIsPassedAtEveryAngle) {
     RowOfAllShapes row;
@@ -406,6 +473,88 @@ TEST(PeerCases, ASuspendedPendulumLosesASphere) {
     EXPECT_NEAR(simulate(events[0].time).getQ()[0], -std::atan(0.2), 1e-3);
     scene.system.realize(late, Stage::Position);
     EXPECT_EQ(scene.cable.calcStatus(late), PathStatus::Solved);
+}
+
+/** Two links from the ground on, each turning about one end, with its center a meter from there. */
+struct TwoLinks : BareScene {
+    TwoLinks()
+        : first(matter.Ground(), Transform(), makeBody(), Transform(Vec3(-1, 0, 0))),
+          second(first, Transform(), makeBody(), Transform(Vec3(-1, 0, 0))) {}
+    MobilizedBody::Pin first, second;
+};
+
+/** What a tension puts on the bodies of its path, and on no other. OpenSim lets a negative one pull
+at nothing; here it is an error. */
+TEST(PeerCases, ATensionActsOnTheBodiesOfItsPathAlone) {
+    TwoLinks links;
+    Cable cable(links.cables, SimTK::GroundIndex, Vec3(0.05, 0.05, 0), links.first, Vec3(-0.75, 0.1, 0), "c");
+    const State state = links.system.realizeTopology();
+    links.system.realize(state, Stage::Position);
+    const auto calcForces = [&](Real tension) {
+        SimTK::Vector_<SpatialVec> forces(3, SpatialVec(Vec3(0)));
+        SimTK::Vector mobilityForces(state.getNU(), Real(0));
+        cable.applyBodyForces(state, tension, forces);
+        cable.applyMobilityForces(state, tension, mobilityForces);
+        EXPECT_EQ(mobilityForces.norm(), 0) << "nothing moves on its body";
+        return forces;
+    };
+    const Vec3 from(0.05, 0.05, 0), to(0.25, 0.1, 0), e = (to - from).normalize();
+    const SimTK::Vector_<SpatialVec> unit = calcForces(1), none = calcForces(0), unknown = calcForces(SimTK::NaN);
+    EXPECT_LT((unit[0] - SpatialVec(from % e, e)).norm(), 1e-15);
+    EXPECT_LT((unit[1] - SpatialVec(-((to - Vec3(1, 0, 0)) % e), -e)).norm(), 1e-15);
+    for (int b = 0; b < 3; ++b) {
+        EXPECT_EQ(none[b].norm(), 0) << b;
+        EXPECT_EQ(SimTK::isNaN(unknown[b].norm()), b < 2) << b;
+    }
+    EXPECT_EQ(unit[2].norm(), 0);
+    EXPECT_MESSAGE(calcForces(-1), "cable 'c': a string cannot push, but the tension is -1");
+}
+
+/** A path over a drum on one link to the next, with a point on the way: its elements, by their numbers. */
+TEST(PeerCases, APathGivesAccessToWhatItIsMadeOf) {
+    TwoLinks links;
+    Cable cable(links.cables, SimTK::GroundIndex, Vec3(0.05, 0.05, 0), links.second, Vec3(-0.25, 0.1, 0), "c");
+    const CableElementIndex point = cable.addViaPoint(links.first, Vec3(-0.75, 0.1, 0));
+    const CableElementIndex drum =
+        cable.addObstacle(links.first, Vec3(-0.5, 0.1, 0), makeShape<Geometry::Cylinder>(0.1), Vec3(0, 0.1, 0));
+    EXPECT_EQ(cable.getNumElements(), 4);
+    EXPECT_EQ(cable.getNumObstacles(), 1);
+    EXPECT_EQ(cable.getNumViaPoints(), 1);
+    EXPECT_EQ(cable.getViaPoint(0), point);
+    EXPECT_EQ(cable.getObstacle(0), drum);
+    EXPECT_EQ(cable.getElementBody(drum), links.first.getMobilizedBodyIndex());
+    EXPECT_EQ(cable.getElementFrame(drum).p(), Vec3(-0.5, 0.1, 0));
+    EXPECT_EQ(cable.getSurface(drum)->getDescription(), "cylinder(radius=0.1)");
+    EXPECT_EQ(cable.getSurface(point), nullptr);
+    EXPECT_MESSAGE(cable.getViaPoint(1), "cable 'c': no via point 1 of 1");
+    EXPECT_MESSAGE(cable.getObstacle(1), "cable 'c': no obstacle 1 of 1");
+    const State state = links.system.realizeTopology();
+    EXPECT_NO_THROW(links.system.realize(state, Stage::Acceleration));
+    EXPECT_EQ(cable.getStatus(state), PathStatus::Solved);
+}
+
+/** Two paths over one drum of radius r whose axis is as high as the ends beside it: when it grows, both get longer, by
+what two tangents and an arc say. */
+TEST(PeerCases, AGreaterDrumLengthensAllPathsOverIt) {
+    TwoLinks links;
+    std::vector<Cable> cables;
+    for (int i = 0; i < 2; ++i) {
+        cables.emplace_back(links.cables, SimTK::GroundIndex, Vec3(0.05, 0.05, 0), links.second, Vec3(-0.25, 0.1, 0));
+        cables.back().addViaPoint(links.first, Vec3(-0.75, 0.1, 0));
+        cables.back().addObstacle(links.first, Vec3(-0.5, 0.1, 0), makeShape<Geometry::Cylinder>(0.1), Vec3(0, 0.1, 0));
+    }
+    // In ground: the point at (0.25, 0.1), the drum at (0.5, 0.1), the end at (1.75, 0.1).
+    const Real a = 0.25, b = 1.25, first = std::hypot(0.2, 0.05);
+    for (const Real r : {0.1, 0.2}) {
+        SCOPED_TRACE(r);
+        for (Cable& cable : cables) cable.setSurface(cable.getObstacle(0), makeShape<Geometry::Cylinder>(r));
+        const State state = links.system.realizeTopology();
+        links.system.realize(state, Stage::Position);
+        const Real arc = SimTK::Pi - std::acos(r / a) - std::acos(r / b);
+        const Real over = std::sqrt(a * a - r * r) + std::sqrt(b * b - r * r) + r * arc;
+        for (const Cable& cable : cables) EXPECT_NEAR(cable.getLength(state), first + over, 1e-12);
+        EXPECT_EQ(cables[0].getLength(state), cables[1].getLength(state));
+    }
 }
 
 /** A cylinder about the joint between two links, the ends half a meter from it on either side. */

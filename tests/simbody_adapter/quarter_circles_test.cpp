@@ -44,6 +44,44 @@ TEST(QuarterCirclesTest, LengthArcsAndStatus) {
     EXPECT_NEAR(scene.cable.getLengthRate(scene.state), 0, 1e-15);
 }
 
+/** The direction of the path and the outward normal where it meets and leaves each obstacle, and on the way between. */
+TEST(QuarterCirclesTest, FramesAlongTheArcs) {
+    QuarterCircles scene;
+    struct Arc {
+        SimTK::Vec3 center, tangent, normal;
+        Real radius;
+    };
+    const Arc arcs[] = {{{1, 1, 0}, {0, 1, 0}, {-1, 0, 0}, 1},
+                        {{4.5, 1, 0}, {1, 0, 0}, {0, 1, 0}, 1},
+                        {{4, -2, 0}, {0, -1, 0}, {1, 0, 0}, 1.5},
+                        {{-2, -1.5, 0}, {-1, 0, 0}, {0, -1, 0}, 2}};
+    const int count = 7;
+    for (int i = 0; i < 4; ++i) {
+        SCOPED_TRACE(i);
+        const Arc& arc = arcs[i];
+        const CableElementIndex obstacle(i + 1);
+        const std::vector<Transform> frames = scene.cable.calcResampledArcFrames(scene.state, obstacle, count);
+        const std::vector<SimTK::Vec3> points = scene.cable.calcResampledArc(scene.state, obstacle, count);
+        ASSERT_EQ(frames.size(), static_cast<std::size_t>(count));
+        for (int k = 0; k < count; ++k) {
+            const Real angle = k * SimTK::Pi / 2 / (count - 1);  // turned clockwise
+            const SimTK::Vec3 normal = std::cos(angle) * arc.normal + std::sin(angle) * arc.tangent;
+            const SimTK::Vec3 tangent = std::cos(angle) * arc.tangent - std::sin(angle) * arc.normal;
+            EXPECT_LT((frames[k].p() - (arc.center + arc.radius * normal)).norm(), 1e-9) << k;
+            EXPECT_LT((frames[k].x() - tangent).norm(), 1e-9) << k;
+            EXPECT_LT((frames[k].y() - normal).norm(), 1e-9) << k;
+            EXPECT_LT((frames[k].z() - SimTK::Vec3(0, 0, 1)).norm(), 1e-9) << k;
+            EXPECT_EQ(frames[k].p(), points[k]);
+        }
+        Transform X_GP, X_GQ;
+        ASSERT_TRUE(scene.cable.getContactFrames(scene.state, obstacle, X_GP, X_GQ));
+        for (const auto& [frame, end] : {std::pair(frames.front(), X_GP), std::pair(frames.back(), X_GQ)}) {
+            EXPECT_LT((frame.p() - end.p()).norm(), 1e-12);
+            EXPECT_LT((frame.R().asMat33() - end.R().asMat33()).norm(), 1e-12);
+        }
+    }
+}
+
 TEST(QuarterCirclesTest, WrenchesAboutBodyOrigins) {
     QuarterCircles scene;
     // In the order of the bodies: ground, start, end, and the obstacles along the path.

@@ -152,6 +152,7 @@ public:
     void setStation(CableElementIndex point, const SimTK::Vec3& station_B);
     void setObstacleFrame(CableElementIndex obstacle, const SimTK::Transform& X_BS);
     void setSurface(CableElementIndex obstacle, std::shared_ptr<const Surface> surface);
+    void setSurface(CableElementIndex obstacle, const std::shared_ptr<const SimTK::ContactGeometry>& geometry);
 
     /** How the path is laid where it is found anew. */
     void setHint(CableElementIndex obstacle, std::optional<SimTK::Vec3> hint_S);
@@ -290,6 +291,10 @@ public:
     /** The same along an arc on an obstacle. @throws InvalidInput if it has no such arc */
     std::vector<SimTK::Vec3> calcResampledArc(const SimTK::State& state, CableElementIndex obstacle, int count,
                                               int arc = 0) const;
+    /** The frames at those points: x along the path, y the outward normal, z = x cross y. Between two of them the path
+    turns by its normal curvature about z and by its geodesic torsion about x. */
+    std::vector<SimTK::Transform> calcResampledArcFrames(const SimTK::State& state, CableElementIndex obstacle,
+                                                         int count, int arc = 0) const;
     ///@}
 
     /** @name Forces: unit tension unless one is given [Position]
