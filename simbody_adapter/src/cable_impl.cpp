@@ -129,6 +129,7 @@ CableMode CableImpl::getDefaultMode() const {
 void CableImpl::realizeTopology(CableWorkspaces& workspaces) {
     m_problem = m_elements.makeProblem();
     m_numObstacles = m_elements.countObstacles();
+    m_pool = std::make_shared<CablePathPool>();  // what is left of the problem before is not of this one
     m_workspaces = &workspaces;
 }
 
@@ -149,7 +150,10 @@ bool CableImpl::hasEvents(const State& state) const {
 void CableImpl::realizePath(const State& state, const CableStates::All& all, const std::vector<SimTK::Transform>& X_GB,
                             CableWorkspace& workspace) const {
     const CableMode& mode = all.modes[m_index];
-    if (mode.isDisabled) return;
+    if (mode.isDisabled) {
+        all.paths[m_index] = SharedPath();
+        return;
+    }
     const ContactRule rule = mode.keepsContacts                      ? ContactRule::Kept
                              : mode.contacts == ContactMode::Tracked ? ContactRule::Tracked
                                                                      : ContactRule::Free;
@@ -161,11 +165,23 @@ void CableImpl::realizePath(const State& state, const CableStates::All& all, con
         path = start;
         return;
     }
-    CablePath& found = path.updScratch();
+    if (std::shared_ptr<CablePath> spare = findSpare(state, start.get(), rule, workspace)) {
+        path = SharedPath(std::move(spare));
+        return;
+    }
+    CablePath& found = path.updScratch(*m_pool);
     std::swap(found.pose, workspace.pose);
     found.time = state.getTime();
     found.rule = rule;
     solve(state, start.get(), workspace, found);
+}
+
+/** The answer of the workspace's pose that a State has had which is gone: an event finder comes back to such poses. */
+std::shared_ptr<CablePath> CableImpl::findSpare(const State& state, const CablePath& start, ContactRule rule,
+                                                CableWorkspace& workspace) const {
+    if (rule != ContactRule::Kept || start.serial == 0) return nullptr;
+    return m_pool->find(start.serial,
+                        [&](const CablePath& spare) { return isKnown(state, spare, start, rule, workspace); });
 }
 
 /** Whether a path is the answer of the workspace's pose, as the start of a solve or as what was found from it. A body
@@ -372,10 +388,11 @@ Real CableImpl::calcWitness(const State& state, CableElementIndex obstacle) cons
 }
 
 const CablePath* CableImpl::findKeptPath(const State& state) const {
-    if (!keepsContacts(state)) return nullptr;  // first, since studies without events ask all the same
+    // Studies without events ask all the same, and ask for all cables: the path itself says whether it is kept.
     m_cables.ensureStage(state, Stage::Position, "cable event handler");
     m_cables.realizePaths(state);
-    return &getCablePath(state);
+    const CablePath& path = getCablePath(state);
+    return path.rule == ContactRule::Kept ? &path : nullptr;
 }
 
 bool CableImpl::isHolding(const CablePath& path) const {
@@ -435,7 +452,7 @@ void CableImpl::keepContacts(State& state, const TrackedPath& path) const {
 
 /** A path whose pose is known is the answer at that pose. */
 void CableImpl::setStart(State& state, const TrackedPath& path) const {
-    CablePath& start = m_cables.getStates().updStart(state, m_index).updScratch();
+    CablePath& start = m_cables.getStates().updStart(state, m_index).updScratch(*m_pool);
     static_cast<TrackedPath&>(start) = path;
     start.rule = ContactRule::Kept;
     start.serial = m_cables.makeSerial();

@@ -3,12 +3,14 @@
 #include <Simbody.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cable_counters.h"
 #include "cable_elements.h"
+#include "cable_path_pool.h"
 #include "cable_states.h"
 #include "cable_workspaces.h"
 #include "tautline/simbody/cable.h"
@@ -114,6 +116,8 @@ private:
     const CablePath& getCablePath(const SimTK::State& state) const;
     bool isKnown(const SimTK::State& state, const CablePath& path, const CablePath& start, ContactRule rule,
                  CableWorkspace& workspace) const;
+    std::shared_ptr<CablePath> findSpare(const SimTK::State& state, const CablePath& start, ContactRule rule,
+                                         CableWorkspace& workspace) const;
     void solve(const SimTK::State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
     void findPath(const SimTK::State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
     void calcWitnesses(const CablePath& start, CablePath& path) const;
@@ -139,6 +143,7 @@ private:
     PathProblem m_problem;                    ///< built at Topology
     int m_numObstacles = 0;                   ///< of it
     CableWorkspaces* m_workspaces = nullptr;  ///< at Topology, from the subsystem
+    std::shared_ptr<CablePathPool> m_pool = std::make_shared<CablePathPool>();
     mutable CableCounters m_counters;
 };
 

@@ -33,14 +33,9 @@ const CablePath& SharedPath::get() const {
     return m_path ? *m_path : kEmpty;
 }
 
-CablePath& SharedPath::updScratch() {
+CablePath& SharedPath::updScratch(CablePathPool& pool) {
     // Where the count is one, no other thread can come to raise it: it would have to hold the path already.
-    if (!m_path || m_path.use_count() > 1) m_path = std::make_shared<CablePath>();
-    return *m_path;
-}
-
-CablePath& SharedPath::updCopy() {
-    if (!m_path || m_path.use_count() > 1) m_path = std::make_shared<CablePath>(get());
+    if (!m_path || m_path.use_count() > 1) m_path = pool.take();
     return *m_path;
 }
 

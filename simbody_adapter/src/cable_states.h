@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "cable_path_pool.h"
 #include "tautline/paths/path_tracker.h"
 #include "tautline/simbody/cable_path_subsystem.h"
 
@@ -37,13 +39,15 @@ struct CablePath : TrackedPath {
 /** Holds a path that several States may share: copies are cheap, and who changes one gets a path of his own. */
 class SharedPath {
 public:
+    SharedPath() = default;
+    explicit SharedPath(std::shared_ptr<CablePath> path) : m_path(std::move(path)) {}
+
     bool isEmpty() const { return m_path == nullptr; }
     /** The path, an empty one if there is none. */
     const CablePath& get() const;
-    /** A path that nobody else sees, to be overwritten: its contents are those of any path. */
-    CablePath& updScratch();
-    /** A path that nobody else sees, with the contents of the one that was shared. */
-    CablePath& updCopy();
+    /** A path that nobody else sees, to be overwritten: its contents are those of any path. @param pool   of the cable
+     */
+    CablePath& updScratch(CablePathPool& pool);
 
 private:
     std::shared_ptr<CablePath> m_path;
