@@ -56,7 +56,27 @@
     return mesh;
   }
   const bone = new THREE.MeshLambertMaterial({color: 0xe8e2d0, side: THREE.DoubleSide});
-  const bones = report.bones.map((mesh) => addMesh(mesh, bone));
+  const tinted = new THREE.MeshLambertMaterial({vertexColors: THREE.VertexColors, side: THREE.DoubleSide});
+  // Colors of values from -1 to 1: from the first over the middle one to the last.
+  const kScale = ["#2166ac", "#f2efe6", "#b2182b"];
+  const scaleColors = kScale.map((color) => new THREE.Color(color));
+  function tint(mesh, values) {
+    const colors = new Float32Array(3 * values.length), color = new THREE.Color();
+    values.forEach((value, i) => {
+      const v = value / 32767;
+      color.copy(scaleColors[1]).lerp(scaleColors[v < 0 ? 0 : 2], Math.abs(v)).toArray(colors, 3 * i);
+    });
+    mesh.geometry.setAttribute("color", new THREE.BufferAttribute(colors, 3));
+  }
+  const bones = report.bones.map((described) => {
+    const mesh = addMesh(described, described.values ? tinted : bone);
+    if (described.values) tint(mesh, decode(described.values, Int16Array));
+    return mesh;
+  });
+  find("scale").hidden = !report.valueName;
+  find("ramp").style.background = "linear-gradient(to right, " + kScale.join(",") + ")";
+  find("least").textContent = -report.largestValue;
+  find("most").textContent = report.largestValue + "  " + report.valueName;
   const kLifted = 0x9fb3bd, kTouched = 0xe9a86b;
   const surfaces = report.surfaces.map((mesh) => addMesh(mesh, new THREE.MeshLambertMaterial(
       {color: kLifted, side: THREE.DoubleSide, transparent: true, opacity: 0.55, depthWrite: false})));

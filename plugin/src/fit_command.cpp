@@ -4,7 +4,9 @@
 #include <optional>
 #include <sstream>
 
+#include "fit_page.h"
 #include "patch_region.h"
+#include "storage_file.h"
 #include "tautline/error.h"
 #include "tautline/meshes/close_gaps.h"
 #include "tautline/meshes/mesh_repair.h"
@@ -136,6 +138,8 @@ void FitCommand::declare(CLI::App& app) {
     app.add_option("--box", box, "X0 X1 Y0 Y1 Z0 Z1 in m: only what lies between them is fitted by the patch")
         ->expected(6);
     app.add_option("--unit", unit, "of the mesh file in m, such as 0.001")->capture_default_str();
+    CLI::Option* page = app.add_option("--report", report, "write a page (.html) to look at how far the mesh is off");
+    page->excludes(sheet);
     app.add_option("--out", outFile, "file of the solid, for <solid_file> in models");
 }
 
@@ -153,6 +157,7 @@ int FitCommand::run(std::ostream& out) const {
 }
 
 void FitCommand::fitBone(const TriangleMesh& mesh, std::ostream& out) const {
+    if (!report.empty()) requireReportAssets();
     require(gap >= 0, "--close is the width of gaps in m, but is ", gap);
     const SolidFit fit = fitSolid(gap > 0 ? closeGaps(mesh, gap) : mesh, {width, spacing});
     if (gap > 0) out << "gaps closed: narrower than " << inMillimeters(gap) << "\n";
@@ -160,7 +165,14 @@ void FitCommand::fitBone(const TriangleMesh& mesh, std::ostream& out) const {
     if (outFile.has_parent_path()) std::filesystem::create_directories(outFile.parent_path());
     writeSolidFile(fit.solid, outFile);
     out << "written: " << outFile.string() << ", " << std::filesystem::file_size(outFile) / 1024 << " kB\n";
+    if (!report.empty()) writeFitPage(fit, out);
     printMeshElement(outFile, out);
+}
+
+void FitCommand::writeFitPage(const SolidFit& fit, std::ostream& out) const {
+    if (report.has_parent_path()) std::filesystem::create_directories(report.parent_path());
+    writeWhole(writePage(makeFitPage(meshFile.filename().string(), fit)), report);
+    out << "page: " << report.string() << "\n";
 }
 
 void FitCommand::fitPatch(const TriangleMesh& mesh, std::ostream& out) const {

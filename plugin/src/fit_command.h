@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "tautline/meshes/triangle_mesh.h"
+#include "tautline/surfaces/solid_fit.h"
 
 namespace tautline {
 
 /** `tautline fit`: a smooth surface from a mesh, its file and the element for a model, and how far it is off. */
 struct FitCommand {
     std::filesystem::path meshFile, outFile;
+    std::filesystem::path report;  ///< a page to look at the fit of a bone; empty: none
     bool isBone = false;
     double width = 0, spacing = 0;  ///< [m]; 0: chosen
     double gap = 0;                 ///< [m]: those narrower are closed first; 0: none
@@ -30,6 +31,7 @@ struct FitCommand {
 
 private:
     void fitBone(const TriangleMesh& mesh, std::ostream& out) const;
+    void writeFitPage(const SolidFit& fit, std::ostream& out) const;
     void fitPatch(const TriangleMesh& mesh, std::ostream& out) const;
 };
 

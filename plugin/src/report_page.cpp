@@ -122,7 +122,16 @@ std::string encodeTriangles(const ReportPage::Mesh& mesh, bool isShort) {
     return isShort ? encode(std::vector<std::uint16_t>(corners.begin(), corners.end())) : encode(corners);
 }
 
-std::string describeMeshes(const std::vector<ReportPage::Mesh>& meshes) {
+/** In 32767ths of the scale; null where there are none. */
+std::string encodeValues(const std::vector<double>& values, double largest) {
+    if (values.empty()) return "null";
+    std::vector<std::int16_t> numbers;
+    numbers.reserve(values.size());
+    for (const double value : values) numbers.push_back(toWhole(std::clamp(value, -largest, largest), largest / kMost));
+    return encode(numbers);
+}
+
+std::string describeMeshes(const std::vector<ReportPage::Mesh>& meshes, double largestValue) {
     JsonList list;
     for (const ReportPage::Mesh& mesh : meshes) {
         Unit unit;
@@ -130,7 +139,8 @@ std::string describeMeshes(const std::vector<ReportPage::Mesh>& meshes) {
         const bool isShort = mesh.points_M.size() < 65536;
         list.add("{\"body\":" + std::to_string(mesh.body) + ",\"pose\":" + toMatrix(mesh.X_BM) +
                  ",\"unit\":" + toNumber(unit.get(), 9) + ",\"points\":" + encodePoints(mesh.points_M, unit.get()) +
-                 ",\"short\":" + (isShort ? "true" : "false") + ",\"faces\":" + encodeTriangles(mesh, isShort) + "}");
+                 ",\"short\":" + (isShort ? "true" : "false") + ",\"faces\":" + encodeTriangles(mesh, isShort) +
+                 ",\"values\":" + encodeValues(mesh.values, largestValue) + "}");
     }
     return list.get();
 }
@@ -216,10 +226,11 @@ std::string describe(const ReportPage& page) {
     for (int i = 0; i < 3; ++i) up.add(toNumber(page.up[i]));
     for (const double time : page.curveTimes) times.add(toNumber(time, 9));
     return "{\"title\":" + quote(page.title) + ",\"summary\":" + quote(page.summary) + ",\"up\":" + up.get() +
-           ",\"surfaces\":" + describeMeshes(page.surfaces) + ",\"bones\":" + describeMeshes(page.bones) +
-           ",\"paths\":" + describeWords(page.paths) + ",\"unit\":" + toNumber(unit, 9) +
-           ",\"frames\":" + describeFrames(page, unit) + ",\"times\":" + times.get() +
-           ",\"curves\":" + describeCurves(page) + ",\"events\":" + describeEvents(page) +
+           ",\"surfaces\":" + describeMeshes(page.surfaces, page.largestValue) +
+           ",\"bones\":" + describeMeshes(page.bones, page.largestValue) + ",\"valueName\":" + quote(page.valueName) +
+           ",\"largestValue\":" + toNumber(page.largestValue, 3) + ",\"paths\":" + describeWords(page.paths) +
+           ",\"unit\":" + toNumber(unit, 9) + ",\"frames\":" + describeFrames(page, unit) +
+           ",\"times\":" + times.get() + ",\"curves\":" + describeCurves(page) + ",\"events\":" + describeEvents(page) +
            ",\"headings\":" + describeWords(page.headings) + ",\"rows\":" + describeRows(page) + "}";
 }
 

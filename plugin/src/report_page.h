@@ -19,6 +19,7 @@ struct ReportPage {
         SimTK::Transform X_BM;
         std::vector<Vector3> points_M;
         std::vector<std::array<int, 3>> triangles;
+        std::vector<double> values = {};  ///< of its points, shown as colors; none: it has one color
     };
     struct Path {
         std::vector<Vector3> points_G;                 ///< none: the path is not drawn in this frame
@@ -49,6 +50,8 @@ struct ReportPage {
     Vector3 up = Vector3::UnitY();
     std::vector<std::string> paths;  ///< their names
     std::vector<Mesh> surfaces, bones;
+    std::string valueName;       ///< what the colors of bones show, with its unit
+    double largestValue = kNaN;  ///< the end of the scale of colors, which begins at its negative
     std::vector<Frame> frames;
     std::vector<double> curveTimes;
     std::vector<Curve> curves;

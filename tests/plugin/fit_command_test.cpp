@@ -78,6 +78,26 @@ TEST(FitCommand, WritesASolidAndTheElementThatAModelNeeds) {
     EXPECT_LT(length, straight + 0.02);
 }
 
+TEST(FitCommand, WritesAPageWithTheMeshInTheColorsOfItsDistances) {
+    const std::filesystem::path bone = writeBone(), folder = makeFolder("fit_page"), page = folder / "fit.html";
+    const Outcome fit = runTautline("fit " + bone.string() + " --bone --unit 0.001 --width 0.003 --out " +
+                                    (folder / "bone.solid").string() + " --report " + page.string());
+    ASSERT_EQ(fit.exitCode, 0) << fit.text;
+    EXPECT_TRUE(fit.has("page: " + page.string())) << fit.text;
+    const std::string html = readAll(page);
+    EXPECT_NE(html.find("\"valueName\":\"mm out of the solid\""), std::string::npos);
+    // Two bytes for each of 2562 points, in base 64.
+    const std::size_t begin = html.find("\"values\":\"") + 10, end = html.find('"', begin);
+    EXPECT_EQ(end - begin, 4u * ((2 * 2562 + 2) / 3));
+    // What the page's table has is what the command prints, with more digits.
+    const std::size_t rms = html.find("[\"rms\",\"") + 8;
+    std::ostringstream printed;
+    printed.precision(3);
+    printed << std::stod(html.substr(rms));
+    EXPECT_TRUE(fit.has("off the mesh: " + printed.str())) << fit.text << html.substr(rms, 8);
+    EXPECT_NE(html.find("(the needle)"), std::string::npos);
+}
+
 TEST(FitCommand, ClosesGapsBetweenBonesSideBySide) {
     const std::filesystem::path bones = writeBones(2), solid = bones.parent_path() / "tautline_closed.solid";
     const std::string command = "fit " + bones.string() + " --bone --unit 0.001 --width 0.003 --out " + solid.string();
