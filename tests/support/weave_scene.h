@@ -21,10 +21,12 @@ public:
     enum class Kind { Cylinders, Ellipsoids, Spheres };
     static constexpr double kTimeStep = 0.02;  // [s]
 
-    WeaveScene(Kind kind, int count) : m_kind(kind), m_count(count) {
+    /** @param surface   in place of the kind's own, of the same shape; null: that */
+    WeaveScene(Kind kind, int count, std::shared_ptr<const Surface> surface = nullptr) : m_kind(kind), m_count(count) {
+        if (!surface) surface = makeSurface();
         m_problem.addPoint("origin");
         for (int i = 0; i < count; ++i)
-            m_problem.addObstacle("obstacle" + std::to_string(i), makeSurface(), Vector3(0, 0.4 * getSide(i), 0));
+            m_problem.addObstacle("obstacle" + std::to_string(i), surface, Vector3(0, 0.4 * getSide(i), 0));
         m_problem.addPoint("insertion");
     }
 
