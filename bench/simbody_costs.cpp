@@ -142,6 +142,8 @@ void printExamples() {
                  measureExample<t::BallChainScene<t::TautlineCables>>());
     printExample("two bicubic maps:", measureExample<t::SaddlesScene<t::SimbodyCables>>(),
                  measureExample<t::SaddlesScene<t::TautlineCables>>());
+    printExample("bumpy map:", measureExample<t::BumpScene<t::SimbodyCables>>(),
+                 measureExample<t::BumpScene<t::TautlineCables>>());
 }
 
 }  // namespace

@@ -165,23 +165,11 @@ void CableImpl::realizePath(const State& state, const CableStates::All& all, con
         path = start;
         return;
     }
-    if (std::shared_ptr<CablePath> spare = findSpare(state, start.get(), rule, workspace)) {
-        path = SharedPath(std::move(spare));
-        return;
-    }
     CablePath& found = path.updScratch(*m_pool);
     std::swap(found.pose, workspace.pose);
     found.time = state.getTime();
     found.rule = rule;
     solve(state, start.get(), workspace, found);
-}
-
-/** The answer of the workspace's pose that a State has had which is gone: an event finder comes back to such poses. */
-std::shared_ptr<CablePath> CableImpl::findSpare(const State& state, const CablePath& start, ContactRule rule,
-                                                CableWorkspace& workspace) const {
-    if (rule != ContactRule::Kept || start.serial == 0) return nullptr;
-    return m_pool->find(start.serial,
-                        [&](const CablePath& spare) { return isKnown(state, spare, start, rule, workspace); });
 }
 
 /** Whether a path is the answer of the workspace's pose, as the start of a solve or as what was found from it. A body

@@ -116,8 +116,6 @@ private:
     const CablePath& getCablePath(const SimTK::State& state) const;
     bool isKnown(const SimTK::State& state, const CablePath& path, const CablePath& start, ContactRule rule,
                  CableWorkspace& workspace) const;
-    std::shared_ptr<CablePath> findSpare(const SimTK::State& state, const CablePath& start, ContactRule rule,
-                                         CableWorkspace& workspace) const;
     void solve(const SimTK::State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
     void findPath(const SimTK::State& state, const CablePath& start, CableWorkspace& workspace, CablePath& path) const;
     void calcWitnesses(const CablePath& start, CablePath& path) const;

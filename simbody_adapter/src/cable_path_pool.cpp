@@ -8,39 +8,31 @@
 namespace tautline {
 namespace {
 
-/** So many of the latest are kept as they are: of the poses that a search for an event has tried, those that its window
-lies between are among them mostly. */
-constexpr std::size_t kKept = 4;
+constexpr std::size_t kMostSpares = 4;  ///< an integrator has no more States than that in use
 
 }  // namespace
 
 CablePathPool::CablePathPool() = default;
 CablePathPool::~CablePathPool() = default;
 
+/** The one that came last, which is the likeliest to be in the processor's cache. */
 std::shared_ptr<CablePath> CablePathPool::take() {
+    std::unique_ptr<CablePath> path;
     {
         const std::lock_guard<std::mutex> lock(m_mutex);
-        if (m_spares.size() > kKept) return share(removeSpare(m_spares.begin()));
+        if (!m_spares.empty()) {
+            path = std::move(m_spares.back());
+            m_spares.pop_back();
+        }
     }
-    return share(std::make_unique<CablePath>());
-}
-
-std::unique_ptr<CablePath> CablePathPool::removeSpare(Spares::iterator spare) {
-    std::unique_ptr<CablePath> removed = std::move(*spare);
-    m_spares.erase(spare);
-    return removed;
-}
-
-std::shared_ptr<CablePath> CablePathPool::share(std::unique_ptr<CablePath> path) {
+    if (!path) path = std::make_unique<CablePath>();
     return {path.release(),
             [pool = shared_from_this()](CablePath* left) { pool->takeBack(std::unique_ptr<CablePath>(left)); }};
 }
 
 void CablePathPool::takeBack(std::unique_ptr<CablePath> path) {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    if (m_spares.size() > kKept + 1) m_spares.erase(m_spares.begin());
-    m_lastStartSerial.store(path->startSerial, std::memory_order_relaxed);
-    m_spares.push_back(std::move(path));
+    if (m_spares.size() < kMostSpares) m_spares.push_back(std::move(path));
 }
 
 }  // namespace tautline

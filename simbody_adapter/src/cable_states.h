@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "cable_path_pool.h"
@@ -39,9 +38,6 @@ struct CablePath : TrackedPath {
 /** Holds a path that several States may share: copies are cheap, and who changes one gets a path of his own. */
 class SharedPath {
 public:
-    SharedPath() = default;
-    explicit SharedPath(std::shared_ptr<CablePath> path) : m_path(std::move(path)) {}
-
     bool isEmpty() const { return m_path == nullptr; }
     /** The path, an empty one if there is none. */
     const CablePath& get() const;

@@ -73,5 +73,15 @@ TEST(PeerMotions, ABodyOnAStringOverTwoBicubicMapsKeepsItsBooks) {
     EXPECT_LT(book.worst, 1e-6 * book.largestKinetic);
 }
 
+/** The string lifts off the map and comes down on it again, and slips nowhere. */
+TEST(PeerMotions, ABodyOnAStringOverABumpyMapKeepsItsBooks) {
+    BumpScene<TautlineCables> scene;
+    const EnergyBook book(scene, 1e-8);
+    EXPECT_EQ(book.numEvents, 2);
+    EXPECT_EQ(book.numUnsolved, 0);
+    EXPECT_GT(book.dissipated, 0.1 * book.largestKinetic);
+    EXPECT_LT(book.worst, 1e-6 * book.largestKinetic);
+}
+
 }  // namespace
 }  // namespace tautline::testing

@@ -184,4 +184,40 @@ struct SaddlesScene : PeerScene<Cables> {
     SimTK::MobilizedBody::Free body;
 };
 
+/** A long body turned upside down hangs on a spring cable that goes over one bumpy map, and swings: the dimensions of
+CableOverBicubicSurfaces itself. */
+template <class Cables>
+struct BumpScene : PeerScene<Cables> {
+    BumpScene() {
+        using SimTK::Vec3;
+        SimTK::Force::Gravity(this->forces, this->matter, -SimTK::YAxis, 9.81);
+        const SimTK::Body::Rigid heavy(SimTK::MassProperties(
+            2, Vec3(0, -4, 0), SimTK::UnitInertia::cylinderAlongY(1, 4).shiftFromCentroid(Vec3(0, 4, 0))));
+        SimTK::MobilizedBody ground = this->matter.Ground();
+        body = SimTK::MobilizedBody::Free(ground, SimTK::Transform(), heavy, SimTK::Transform());
+        this->paths.reserve(1);
+        auto& path = this->paths.emplace_back(this->cables, ground, Vec3(0.5, -0.5, 0), body, Vec3(0));
+        path.addSurface(ground, Vec3(-3, -3, -3), SimTK::ContactGeometry::SmoothHeightMap(makeBumps()),
+                        Vec3(1.5, 1, 3.75), Vec3(1.5, -1, 3.75));
+        path.addSpring(this->forces, 50, 8, 0.1);
+    }
+
+    /** Smoothed, with a peak at (2, 0). */
+    static SimTK::BicubicSurface makeBumps() {
+        const SimTK::Real x[] = {0.1, 1, 2, 4}, y[] = {-3, -2, 0, 1, 3},
+                          z[] = {1, 2, 3, 3, 2, 1.1, 2.1, 3.1, 3.1, 2.1, 1, 2, 7, 3, 2, 1.2, 2.2, 3.2, 3.2, 2.2};
+        return SimTK::BicubicSurface(SimTK::Vector(4, x), SimTK::Vector(5, y), SimTK::Matrix(4, 5, z), 1);
+    }
+
+    SimTK::State makeStart() {
+        SimTK::State state = this->system.realizeTopology();
+        body.setQToFitTranslation(state, SimTK::Vec3(4, -10, -3));
+        body.setQToFitRotation(state, SimTK::Rotation(-SimTK::Pi, SimTK::ZAxis));
+        for (const auto& path : this->paths) path.prepare(state);
+        return state;
+    }
+
+    SimTK::MobilizedBody::Free body;
+};
+
 }  // namespace tautline::testing
