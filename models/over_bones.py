@@ -67,7 +67,7 @@ def plot(options, name, title, axis, rows, labels, panels):
     file, data = options.figures / (name + ".svg"), options.out / (name + ".txt")
     data.write_text("\n".join(" ".join(f"{value:.10g}" for value in row) for row in rows) + "\n")
     script = [f"set terminal svg size 700,{260 * len(panels)} background 'white'", f"set output '{file}'",
-              f"set multiplot layout {len(panels)},1 title '{title}'", "set grid", f"set xlabel '{axis}'"]
+              f"set multiplot layout {len(panels)},1 title '{title}'", "set grid", "set key bottom center", f"set xlabel '{axis}'"]
     for label, columns in panels:
         curves = ", ".join(f"'{data}' using 1:{column} with lines lw 2 title '{labels[column]}'" for column in columns)
         script += [f"set ylabel '{label}'", f"plot {curves}"]
