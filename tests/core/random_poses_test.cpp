@@ -201,7 +201,7 @@ TEST(RandomScenes, ScenesThatOnceHadNoExplanationAreSolvedOrHaveOne) {
           Scene{1085768, kAll, false},   Scene{1584688, kAll, false},   Scene{1667733, kBasic, false},
           Scene{1787872, kAll, false},   Scene{1806640, kAll, true},    Scene{1821152, kAll, false},
           Scene{1472824, kAll, false},   Scene{1649520, kAll, true},    Scene{1282183, kBasic, false},
-          Scene{1013608, kAll, true},    Scene{1019344, kAll, false}}) {
+          Scene{1013608, kAll, true},    Scene{1019344, kAll, false},   Scene{2096, kAll, false}}) {
         SCOPED_TRACE(scene.seed);
         PathProblem problem;
         PathPose pose;

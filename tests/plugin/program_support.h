@@ -42,6 +42,11 @@ inline std::filesystem::path makeFolder(const std::string& name) {
     return folder;
 }
 
+/** Of the test that runs: tests run side by side. */
+inline std::string getTestName() {
+    return ::testing::UnitTest::GetInstance()->current_test_info()->name();
+}
+
 /** A file with a text beside the results of a test. */
 inline std::filesystem::path writeInput(const std::string& name, const std::string& text) {
     const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / ("tautline_" + name);

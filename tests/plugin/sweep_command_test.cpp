@@ -13,7 +13,7 @@ const std::string kElbow = TAUTLINE_SOURCE_DIR "/models/elbow.osim";
 
 /** Eight runs of the elbow. */
 std::filesystem::path writeSweep(double duration) {
-    return writeInput("elbow_sweep.json", R"({
+    return writeInput(getTestName() + "_sweep.json", R"({
         "options": {"duration": )" + toText(duration) +
                                               R"(, "lock": ["shoulder_flexion"]},
         "vary": [

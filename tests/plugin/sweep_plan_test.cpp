@@ -10,7 +10,7 @@ namespace tautline::testing {
 namespace {
 
 SweepPlan readPlan(const std::string& text) {
-    return readSweepPlan(writeInput("plan.json", text));
+    return readSweepPlan(writeInput(getTestName() + "_plan.json", text));
 }
 
 /** The message with which a file is refused. */

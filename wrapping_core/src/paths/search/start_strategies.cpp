@@ -300,6 +300,8 @@ void PathSearch::solveRoundWalls(const Route& route, bool keepsSides, PathSoluti
         if (m_bestRank == Rank::Minimum) return;
     }
     path.fault = m_band.findFault(m_scene->problem);
+    // A band that walls hold back only seems to be at rest: its string goes on sliding where no node may follow.
+    if (path.fault.kind == StringFault::Kind::None) path.fault = {StringFault::Kind::Sliding, -1, -1};
 }
 
 /** @return what the path is that the relaxed band leads on to */
